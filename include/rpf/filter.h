@@ -1,0 +1,87 @@
+// The filter: samples in, image and report out.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "rpf/image.h"
+#include "rpf/samples.h"
+#include "rpf/settings.h"
+
+namespace rpf {
+
+/// Handed to Control::progress between tiles.
+struct Progress {
+  int pass = 0, passes = 0;  ///< pass 0 is the first
+  double fraction = 0;       ///< of the whole work, 0 .. 1, weighted by the passes' cost
+  double seconds = 0;        ///< since the start
+  double seconds_left = 0;   ///< estimate; negative while there is no estimate yet
+};
+
+/// How a caller watches and stops a run.
+struct Control {
+  /// Called from the calling thread at least every half second or so of work. Returning false cancels: filter() throws
+  /// Error(cancelled).
+  std::function<bool(const Progress&)> progress;
+  /// Pixels handed to the backend at once; 0: chosen so that progress and cancelling work. Never changes the result.
+  std::size_t tile_pixels = 0;
+};
+
+/// What a pass did: means over the filtered pixels that have samples.
+struct PassReport {
+  int box_width = 0;
+  double neighbors = 0;        ///< N, own samples included
+  double acceptance = 0;       ///< accepted candidates / candidates drawn
+  double fraction_random = 0;  ///< W_c^r
+  double alpha = 0, beta = 0;  ///< over the channels too
+  double energy = 0;           ///< sum of the image after the pass / sum of the plain mean of the samples
+  double seconds = 0;          ///< wall time
+};
+
+/// A channel that was not modeled because it does not vary, or a count of samples that were treated specially.
+struct InputNote {
+  std::string what;  ///< for example "samples left out: R, G or B not finite"
+  std::uint64_t count = 0;
+  int x = 0, y = 0;  ///< pixel of the first one, data-window coordinates
+};
+
+struct Report {
+  std::string backend;
+  std::vector<std::string> random, features;  ///< modeled channels
+  std::vector<std::string> dropped;           ///< selected channels that are constant over the frame
+  std::vector<InputNote> notes;
+  std::vector<PassReport> passes;
+  double seconds = 0;
+};
+
+struct Result {
+  Image image;     ///< R, G, B (A), over the crop or the whole data window
+  Image features;  ///< the filtered features where Settings::filter_features asks for them: channels N.X, albedo.R, ...
+  Report report;
+};
+
+/// Filters a frame. Takes the buffer over and works in it; pass a copy to keep it.
+/// Throws Error(usage) for a setting that cannot be, Error(input) for an invalid buffer, Error(memory),
+/// Error(cancelled). The result does not depend on the number of threads or the tile size.
+Result filter(SampleBuffer samples, const Settings& settings, const Control& control = {});
+
+/// What a memory estimate needs to know of a frame.
+struct FrameSize {
+  std::uint64_t pixels = 0;
+  std::uint64_t samples = 0;
+  std::uint32_t max_samples_per_pixel = 0;
+};
+
+/// Peak bytes of reading and filtering such a frame, none of its channels being constant. Throws Error(usage) as
+/// filter() does.
+std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings);
+
+/// The names accepted by Settings::backend, for example {"cpu"}.
+std::vector<std::string> backend_names();
+
+/// The number of threads that 0 stands for: cores in the process's affinity mask.
+int available_threads();
+
+}  // namespace rpf

@@ -1,0 +1,40 @@
+// Images and the geometry they share with sample buffers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace rpf {
+
+/// A rectangle of pixels: position of its first pixel, and its size. Units: pixels.
+struct Window {
+  int x = 0, y = 0;
+  int width = 0, height = 0;
+
+  std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+  bool operator==(const Window& o) const { return x == o.x && y == o.y && width == o.width && height == o.height; }
+};
+
+/// Named header values that travel from the input file to the output file. A vector of 9 or 16 floats is a matrix.
+using Attribute = std::variant<std::int32_t, float, std::string, std::vector<float>>;
+using Metadata = std::map<std::string, Attribute>;
+
+/// A linear floating-point image. `pixels` is row-major and interleaved: [height][width][channel].
+struct Image {
+  Window data_window;
+  Window display_window;
+  std::vector<std::string> channels;  ///< for example R, G, B, A, albedo.R
+  std::vector<float> pixels;
+  Metadata metadata;
+
+  std::size_t channel_count() const { return channels.size(); }
+  /// The channels of pixel number `index` (row-major in the data window).
+  float* pixel(std::size_t index) { return pixels.data() + index * channels.size(); }
+  const float* pixel(std::size_t index) const { return pixels.data() + index * channels.size(); }
+};
+
+}  // namespace rpf

@@ -1,0 +1,68 @@
+// Files: deep OpenEXR samples in and out, images in and out.
+// Every writer fills a temporary file beside the target, checks and syncs it, and renames it: a target is whole or
+// untouched.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "rpf/image.h"
+#include "rpf/samples.h"
+
+namespace rpf {
+
+enum class PixelType { half_float, full_float, unsigned_int };
+
+/// One channel of a sample file and the slot it fills.
+struct SampleFileChannel {
+  std::string name;  ///< as the file calls it
+  std::string slot;  ///< canonical name (docs/file-format.md); empty: not used
+  PixelType type = PixelType::full_float;
+};
+
+/// What the header and the sample counts of a file say, before any sample is read.
+struct SampleFileInfo {
+  std::string path;
+  Window data_window;
+  Window display_window;
+  std::string compression;
+  std::vector<SampleFileChannel> channels;  ///< in the file's order
+  std::uint64_t sample_count = 0;
+  std::uint32_t min_samples = 0, max_samples = 0;  ///< per pixel
+  std::uint64_t empty_pixels = 0;                  ///< pixels without samples
+  Metadata metadata;
+};
+
+struct SampleReadOptions {
+  /// slot -> channel name in the file, beats every automatic assignment; an empty channel name leaves the slot out.
+  std::map<std::string, std::string> slot_map;
+  /// Bytes this read may allocate; 0: no limit. Checked before anything is allocated.
+  std::uint64_t max_memory = 0;
+};
+
+/// Reads header and sample counts only. Throws Error(input) with the file, channel or attribute and what was expected.
+SampleFileInfo inspect_samples(const std::string& path, const SampleReadOptions& options = {});
+
+/// Reads all channels that fill a slot. Throws Error(input) for a bad file, Error(memory) where the budget is too small
+/// (the text has the need and the limit).
+SampleBuffer read_samples(const std::string& path, const SampleReadOptions& options = {});
+
+/// Writes a deep scan-line OpenEXR file, ZIPS compressed, marked rpf:format="mc-samples"; values survive exactly.
+/// `half_slots`: slots to be stored as half. Throws Error(output), and Error(usage) for a half slot that is not there.
+void write_samples(const std::string& path, const SampleBuffer& samples,
+                   const std::vector<std::string>& half_slots = {});
+
+/// Reads any image that OpenImageIO knows as linear float. Throws Error(input).
+Image read_image(const std::string& path);
+
+/// Writes an image; the extension chooses the format. Formats of 8 bits (png, jpg, ...) get R, G, B (A) with the sRGB
+/// transfer function, clamped to [0,1]; all others get linear float and the metadata. Throws Error(output).
+void write_image(const std::string& path, const Image& image);
+
+/// Throws Error(output) where a later write to `path` is known to fail: its folder is missing, it is a folder itself,
+/// or no format goes with its extension. For finding out before an hour of filtering. Leaves nothing.
+void check_target(const std::string& path);
+
+}  // namespace rpf

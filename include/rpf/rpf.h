@@ -1,0 +1,11 @@
+// Everything.
+#pragma once
+
+#include "rpf/error.h"
+#include "rpf/filter.h"
+#include "rpf/image.h"
+#include "rpf/io.h"
+#include "rpf/metrics.h"
+#include "rpf/samples.h"
+#include "rpf/settings.h"
+#include "rpf/version.h"

@@ -1,0 +1,66 @@
+// Sample buffers: every Monte Carlo sample of a frame as one record of floats (algorithm.md, section 1).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rpf/image.h"
+
+namespace rpf {
+
+/// Which slot stands in which column of a sample's record. Slots are the canonical channel names of
+/// docs/file-format.md: R G B [A] film.X film.Y [weight] random.<group>[.<component>] feature.<group>[.<component>]
+/// [feature.hit]
+struct SampleLayout {
+  std::vector<std::string> slots;
+
+  std::size_t size() const { return slots.size(); }
+  /// Column of `slot`, or nothing where the layout does not have it.
+  std::optional<std::size_t> find(const std::string& slot) const;
+};
+
+/// True for the slots of random parameters: random.<group>[.<component>].
+bool is_random_slot(const std::string& slot);
+/// True for the slots of modeled features: feature.<group>[.<component>], without the mask feature.hit.
+bool is_feature_slot(const std::string& slot);
+/// "lens" of "random.lens.U", "N" of "feature.N.X"; empty for the slots that have no group.
+std::string group_of(const std::string& slot);
+
+/// All samples of a frame. A missing value is NaN.
+/// Invariants (checked by validate()): first_sample has pixel_count() + 1 entries, starts at 0 and does not decrease;
+/// values has sample_count() * layout.size() entries; R, G, B, film.X and film.Y are in the layout; no slot twice.
+struct SampleBuffer {
+  Window data_window;
+  Window display_window;
+  SampleLayout layout;
+  std::vector<std::uint32_t>
+      first_sample;  ///< [pixel_count + 1]: the samples of pixel p are first_sample[p] .. first_sample[p + 1] - 1
+  std::vector<float> values;  ///< [sample_count][layout.size()]
+  Metadata metadata;
+
+  std::size_t sample_count() const { return first_sample.empty() ? 0 : first_sample.back(); }
+  float* record(std::size_t sample) { return values.data() + sample * layout.size(); }
+  const float* record(std::size_t sample) const { return values.data() + sample * layout.size(); }
+
+  /// Throws Error(input) that names the first invariant that does not hold.
+  void validate() const;
+};
+
+/// What one column of a sample buffer holds; `rpf info` prints it.
+struct ChannelSurvey {
+  std::string slot;
+  float minimum = 0, maximum = 0;      ///< over the finite values; 0 where there are none
+  std::uint64_t non_finite = 0;        ///< NaN and infinite values
+  std::uint64_t negative = 0;          ///< values below zero
+  std::int64_t first_non_finite = -1;  ///< pixel number (row-major) of the first non-finite value, -1 if none
+  std::int64_t first_negative = -1;    ///< pixel number of the first negative value, -1 if none
+  bool constant = true;                ///< all finite values are equal (also where there are none)
+};
+
+/// Reads every value once. One entry per slot, in the layout's order.
+std::vector<ChannelSurvey> survey(const SampleBuffer& samples);
+
+}  // namespace rpf

@@ -1,0 +1,60 @@
+// What a user can choose. Every option of `rpf` that changes the picture is a field here, with the same name.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rpf/image.h"
+
+namespace rpf {
+
+/// algorithm.md, section 8.
+enum class Profile {
+  thesis,  ///< M = b^2 / 2 samples a neighborhood; also the position inside the pixel is a random parameter
+  paper    ///< M = b^2 s / 2, and the outlier step after every pass
+};
+
+struct Settings {
+  std::string backend = "cpu";
+  Profile profile = Profile::thesis;
+
+  /// One pass per entry: odd box widths, 1 .. 255 pixels. Empty: no pass, the result is the plain mean of the samples.
+  std::vector<int> box_widths = {55, 35, 17, 7};
+  /// M = samples_factor * b^2 in place of the profile's M.
+  std::optional<double> samples_factor;
+  /// Upper limit of M; 0: none.
+  std::uint32_t max_samples = 0;
+  /// sigma_8^2 of (T 5.10): 0.02 for very noisy scenes, 0.002 otherwise. Above 0.
+  float noise = 0.02F;
+  /// Histogram bins, B = 2 K + 1: odd, 3 .. 31.
+  int bins = 7;
+
+  /// Groups of random parameters to model, for example {"lens", "time"}; "pixel" is the position inside the pixel.
+  /// Nothing: lens, time and light where the file has them, with pixel in the thesis profile.
+  std::optional<std::vector<std::string>> random;
+  /// Groups of features to model, for example {"N", "P"}. Nothing: all that the file has.
+  std::optional<std::vector<std::string>> features;
+
+  std::uint32_t seed = 1;
+
+  // The choices of algorithm.md marked [choice], and its tuning constants.
+  float alpha_factor = 2.0F;       ///< the factor of (T 5.9)
+  float position_scale = 20.0F;    ///< least tolerance of world positions: 0.1 * scene diagonal / this; above 0
+  int redraws = 8;                 ///< further attempts of a draw that left the image, 0 .. 15
+  bool reject_second_hit = false;  ///< features of the second hit (N2, P2, ...) take part in the rejection test
+  bool bias_correction = false;    ///< subtract (B-1)^2 / (2N) from every mutual information
+  bool clamp_negative = false;     ///< negative radiance becomes 0
+
+  /// Also filter the features with the weights of the color: Result::features.
+  bool filter_features = false;
+  /// Filter only this part of the data window (coordinates of the data window's own system). The pixels are those of
+  /// the whole frame.
+  std::optional<Window> crop;
+
+  int threads = 0;               ///< 0: all cores of the process's affinity mask
+  std::uint64_t max_memory = 0;  ///< bytes; 0: no limit
+};
+
+}  // namespace rpf

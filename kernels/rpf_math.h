@@ -1,0 +1,133 @@
+// The formulas of Random Parameter Filtering, one function each, for every backend (numeric.h is the contract).
+// "section n" and "(T n)" are the sections and equation numbers of docs/algorithm.md; T is Van Campenhout's thesis.
+#ifndef RPF_MATH_H
+#define RPF_MATH_H
+
+#include "numeric.h"
+
+#ifndef __OPENCL_VERSION__
+namespace rpf::kernel {
+#endif
+
+#define RPF_EPSILON 1e-10f     // of (T 5.4) to (T 5.6)
+#define RPF_FLAT_SPREAD 1e-6f  // section 4: a smaller standard deviation, relative to the values, is 0
+#define RPF_OUTLIER_THRESHOLD \
+  1.00001f  // section 7: 1 standard deviation; the excess keeps equality from flipping by rounding
+
+// ---- section 3: neighborhood ----------------------------------------------------------------------------------------
+
+// The key of a pixel's draws in one pass. Every pass and every seed draws anew.
+RPF_INLINE rpf_words rpf_draw_key(uint seed, uint pass, uint pixel) { return rpf_hash(seed, pass, pixel); }
+
+// The random words of one attempt of one draw: x indexes the offset table (low half: dx, high half: dy), y picks the
+// sample. A draw has at most RPF_MAX_ATTEMPTS attempts, so that the counters of two draws never meet.
+#define RPF_MAX_ATTEMPTS 16u
+RPF_INLINE rpf_words rpf_draw_words(rpf_words key, uint draw, uint attempt) {
+  return rpf_hash(key.x ^ (draw * RPF_MAX_ATTEMPTS + attempt), key.y, key.z);
+}
+
+// A uniform choice among `count` samples.
+RPF_INLINE uint rpf_choose(uint word, uint count) { return mul_hi(word, count); }
+
+// The one tolerance that the two conditions of the rejection test come to for H >= 1: max(H s, a).
+RPF_INLINE float rpf_tolerance(float rejection_factor, float own_deviation, float minimum) {
+  const float scaled = rejection_factor * own_deviation;
+  return scaled > minimum ? scaled : minimum;
+}
+
+// A candidate is rejected when this holds for any feature. `value` and `own_mean` are both relative to the same shift.
+// Missing values compare false and so never reject.
+RPF_INLINE int rpf_rejects(float value, float own_mean, float tolerance) { return fabs(value - own_mean) > tolerance; }
+
+// ---- section 4: normalization ---------------------------------------------------------------------------------------
+
+// 1 / standard deviation, or 0 where the variable counts as constant. `largest`: largest magnitude of the unshifted
+// values.
+RPF_INLINE float rpf_inverse_deviation(float variance, float largest) {
+  const float deviation = sqrt(variance);
+  return deviation > RPF_FLAT_SPREAD * largest ? 1.0f / deviation : 0.0f;
+}
+
+// Mean 0, standard deviation 1. `value` and `mean` are relative to the same shift; a missing value becomes 0.
+RPF_INLINE float rpf_normalize(float value, float mean, float inverse_deviation) {
+  return rpf_is_missing(value) ? 0.0f : (value - mean) * inverse_deviation;
+}
+
+// ---- section 5: mutual information ----------------------------------------------------------------------------------
+
+// Bin of a normalized value, 0 .. 2K: nearest integer, half away from zero, clamped to [-K, K], plus K.
+// `whole` is exact and so is the rest, hence no value is rounded across an edge.
+RPF_INLINE int rpf_bin(float normalized, int half_bins) {
+  const float limit = (float)half_bins;
+  const float magnitude = fabs(normalized) < limit ? fabs(normalized) : limit;
+  const int whole = (int)magnitude;
+  const int nearest = magnitude - (float)whole >= 0.5f ? whole + 1 : whole;
+  return normalized < 0.0f ? half_bins - nearest : half_bins + nearest;
+}
+
+// I(X,Y) in nats from units = S * (sum h_xy log2 h_xy - sum h_x log2 h_x - sum h_y log2 h_y + N log2 N), an integer sum
+// over the table of src/tables.h. Every entry is off by at most half a unit, so a sum of `slack` units or less is
+// indistinguishable from 0 and counts as 0: exactly independent variables have no mutual information.
+// `nats_per_unit` = ln 2 / S; `bias`: what is subtracted times 1/N (0, or (B-1)^2 / 2 with the bias correction).
+RPF_INLINE float rpf_mutual_information(int units, int slack, float nats_per_unit, float bias, float neighbors) {
+  if (units <= slack) return 0.0f;
+  const float information = ((float)units * nats_per_unit - bias) / neighbors;
+  return information > 0.0f ? information : 0.0f;
+}
+
+// W_c,i^r (T 5.4) and W_f,k^r (T 5.5): the share of the random parameters in what a variable depends on.
+RPF_INLINE float rpf_fraction_random(float on_random, float on_position) {
+  return on_random / (on_random + on_position + RPF_EPSILON);
+}
+
+// W_c^{f,k} (T 5.6): the share of feature k in what the color depends on.
+RPF_INLINE float rpf_fraction_feature(float on_feature, float on_random, float on_position, float on_features) {
+  return on_feature / (on_random + on_position + on_features + RPF_EPSILON);
+}
+
+RPF_INLINE float rpf_not_negative(float x) { return x > 0.0f ? x : 0.0f; }
+
+// alpha_i (T 5.9). `growth` = 1 + 0.1 t of pass t; `factor`: the 2 of the thesis.
+RPF_INLINE float rpf_alpha(float factor, float growth, float color_fraction_random) {
+  return rpf_not_negative(1.0f - factor * growth * color_fraction_random);
+}
+
+// beta_k (T 5.9).
+RPF_INLINE float rpf_beta(float fraction_feature, float growth, float feature_fraction_random) {
+  return fraction_feature * rpf_not_negative(1.0f - growth * feature_fraction_random);
+}
+
+// ---- section 6: filter ----------------------------------------------------------------------------------------------
+
+// What multiplies the squared distances in the exponent: (1 - W_c^r)^2 / (2 sigma^2), with sigma^2 = 8 noise / s
+// (T 5.10).
+RPF_INLINE float rpf_sharpness(float fraction_random, float noise, uint samples) {
+  const float certain = 1.0f - fraction_random;
+  return certain * certain * (float)samples / (16.0f * noise);
+}
+
+// A normalized coordinate times this can be subtracted, squared and summed: its coefficient (alpha_i or beta_k) and the
+// sharpness are both inside. One multiplication a neighbor instead of one a pair of samples.
+RPF_INLINE float rpf_distance_scale(float sharpness, float coefficient) { return sqrt(sharpness * coefficient); }
+
+// w_ij (T 5.3 with 5.10) from the sum of squared scaled differences.
+RPF_INLINE float rpf_weight(float squared_distance) { return rpf_exp(-squared_distance); }
+
+// c''_i (T 5.11), held inside the range of the colors it averages: rounding cannot leave the convex hull.
+RPF_INLINE float rpf_filtered(float weighted_sum, float weight_sum, float smallest, float largest) {
+  const float mean = weighted_sum / weight_sum;
+  if (mean < smallest) return smallest;
+  return mean > largest ? largest : mean;
+}
+
+// ---- section 7: outliers --------------------------------------------------------------------------------------------
+
+RPF_INLINE int rpf_is_outlier(float value, float mean, float deviation) {
+  return fabs(value - mean) > RPF_OUTLIER_THRESHOLD * deviation;
+}
+
+#ifndef __OPENCL_VERSION__
+}  // namespace rpf::kernel
+#endif
+
+#endif

@@ -1,0 +1,48 @@
+// The seam: what the driver asks of a backend. Coarse enough for a device, small enough to read.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "frame.h"
+#include "plan.h"
+#include "trace.h"
+
+namespace rpf {
+
+/// What the filter found at a pixel in the latest pass; the driver averages it for the report.
+struct PixelStatistics {
+  std::uint32_t drawn = 0;      ///< candidates drawn
+  std::uint32_t neighbors = 0;  ///< N; 0: not filtered or no samples
+  float fraction_random = 0;    ///< W_c^r
+  float alpha = 0, beta = 0;    ///< means over the channels
+};
+
+class Backend {
+ public:
+  virtual ~Backend() = default;
+
+  /// Called once, before anything else. Frame and plan outlive the backend; `colors` is c' of the first pass,
+  /// [sample][carried].
+  virtual void load(const Frame& frame, std::vector<float> colors, const Plan& plan) = 0;
+  /// Filters the pixels of a tile (frame coordinates, inside the pass's region). Tiles of a pass do not overlap.
+  virtual void run(int pass, const Window& tile) = 0;
+  /// Ends a pass: its result becomes the input c' of the next.
+  virtual void end_pass() = 0;
+  /// The mean of every pixel's samples as after the latest ended pass, scaled radiance: [pixel][carried]; 0 where there
+  /// are none.
+  virtual std::vector<float> resolve() = 0;
+  /// [pixel], of the latest pass run.
+  virtual const std::vector<PixelStatistics>& statistics() const = 0;
+  /// Peak bytes of scratch memory beside frame and result.
+  virtual std::uint64_t scratch_bytes(const Plan& plan) const = 0;
+  /// All intermediate values of one pixel, from the state before end_pass(). Changes nothing.
+  virtual PixelTrace trace(int pass, std::uint32_t pixel) = 0;
+};
+
+/// Creates a backend by name. Throws Error(usage) for an unknown name, Error(device) where it cannot work.
+std::unique_ptr<Backend> make_backend(const std::string& name, int threads);
+
+}  // namespace rpf

@@ -1,0 +1,16 @@
+// The subcommands. Each adds its options to the parser and returns what to run when it was chosen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace rpf::cli {
+
+/// Runs a command; returns the exit code.
+using Command = std::function<int()>;
+
+Command add_filter_command(CLI::App& app);   ///< rpf INPUT -o OUTPUT
+Command add_info_command(CLI::App& app);     ///< rpf info FILE
+Command add_compare_command(CLI::App& app);  ///< rpf compare IMAGE... REFERENCE
+
+}  // namespace rpf::cli

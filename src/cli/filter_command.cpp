@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/resource.h>
+
+#include <filesystem>
+
+#include "cli/commands.h"
+#include "cli/filter_options.h"
+#include "cli/progress_bar.h"
+#include "cli/signals.h"
+#include "rpf/error.h"
+#include "rpf/filter.h"
+
+namespace rpf::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double megabyte = 1 << 20;
+
+double cpu_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+std::string list(const std::vector<std::string>& names) {
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
+}
+
+/// An existing folder, or a name that ends like one.
+bool is_folder(const std::string& path) { return fs::is_directory(path) || path.back() == '/'; }
+
+SampleLayout layout_of(const SampleFileInfo& info) {
+  SampleLayout layout;
+  for (const SampleFileChannel& channel : info.channels)
+    if (!channel.slot.empty()) layout.slots.push_back(channel.slot);
+  return layout;
+}
+
+/// Needs more than the limit: refused before anything is read.
+void check_budget(const SampleFileInfo& info, const Settings& settings, bool print) {
+  const auto need =
+      predict_memory({info.data_window.pixel_count(), info.sample_count, info.max_samples}, layout_of(info), settings);
+  const double need_mb = static_cast<double>(need) / megabyte,
+               limit_mb = static_cast<double>(settings.max_memory) / megabyte;
+  if (print)
+    fmt::print("peak memory: {:.0f} MB of at most {:.0f} MB, {} threads\n", need_mb, limit_mb, settings.threads);
+  if (need > settings.max_memory)
+    throw Error(
+        ErrorKind::memory,
+        fmt::format("{}: filtering needs {:.0f} MB, the limit is {:.0f} MB; raise --max-memory, lower --threads or "
+                    "leave channels out with --features and --random",
+                    info.path, need_mb, limit_mb));
+}
+
+void print_notes(const Report& report) {
+  for (const InputNote& note : report.notes)
+    fmt::print(stderr, "rpf: note: {}: {} (first at pixel {},{})\n", note.what, note.count, note.x, note.y);
+}
+
+void print_report(const Report& report) {
+  fmt::print("backend {}\nrandom parameters: {}\nfeatures: {}\n", report.backend, list(report.random),
+             list(report.features));
+  if (!report.dropped.empty()) fmt::print("constant, not modeled: {}\n", list(report.dropped));
+  fmt::print("{:>4} {:>4} {:>9} {:>11} {:>6} {:>6} {:>6} {:>7} {:>8}\n", "pass", "box", "neighbors", "acceptance", "W",
+             "alpha", "beta", "energy", "seconds");
+  for (std::size_t i = 0; i < report.passes.size(); ++i) {
+    const PassReport& p = report.passes[i];
+    fmt::print("{:>4} {:>4} {:>9.1f} {:>11.3f} {:>6.3f} {:>6.3f} {:>6.3f} {:>7.4f} {:>8.2f}\n", i + 1, p.box_width,
+               p.neighbors, p.acceptance, p.fraction_random, p.alpha, p.beta, p.energy, p.seconds);
+  }
+}
+
+/// One image per feature group, with the components as channels.
+void write_feature_files(const std::string& folder, const Image& features) {
+  fs::create_directories(folder);
+  const auto group = [&](std::size_t c) { return features.channels[c].substr(0, features.channels[c].find('.')); };
+  for (std::size_t first = 0, last = 0; first < features.channel_count(); first = last) {
+    while (last < features.channel_count() && group(last) == group(first)) ++last;
+    Image image = features;
+    image.channels.clear();
+    image.pixels.clear();
+    for (std::size_t c = first; c < last; ++c) {
+      const auto dot = features.channels[c].find('.');
+      image.channels.push_back(dot == std::string::npos ? "Y" : features.channels[c].substr(dot + 1));
+    }
+    for (std::size_t p = 0; p < features.data_window.pixel_count(); ++p)
+      image.pixels.insert(image.pixels.end(), features.pixel(p) + first, features.pixel(p) + last);
+    write_image((fs::path(folder) / (group(first) + ".exr")).string(), image);
+  }
+}
+
+Result filter_with_progress(SampleBuffer samples, const Settings& settings, const std::string& mode) {
+  const SignalGuard guard;
+  ProgressBar bar(mode);
+  Control control;
+  control.progress = [&](const Progress& progress) {
+    bar.show(progress);
+    return received_signal() == 0;
+  };
+  return filter(std::move(samples), settings, control);
+}
+
+void write_results(const FilterOptions& options, const Result& result) {
+  const SignalGuard guard;  // a signal now waits until the files are whole
+  write_image(options.output, result.image);
+  if (options.aov.empty()) return;
+  if (is_folder(options.aov))
+    write_feature_files(options.aov, result.features);
+  else
+    write_image(options.aov, result.features);
+}
+
+void check_usage(const FilterOptions& options) {
+  if (options.input.empty())
+    throw Error(ErrorKind::usage, "no input: name a sample file, as in rpf render.samples.exr -o filtered.exr");
+  if (options.output.empty() && !options.dry_run)
+    throw Error(ErrorKind::usage, "no output: name the image to write with -o, as in -o filtered.exr");
+}
+
+int run(const FilterOptions& options) {
+  check_usage(options);
+  const Settings settings = settings_of(options);
+  const SampleReadOptions read_options = read_options_of(options.map, settings.max_memory);
+  const SampleFileInfo info = inspect_samples(options.input, read_options);
+  check_budget(info, settings, options.verbose || options.dry_run);
+  if (!options.output.empty()) check_target(options.output);
+  if (!options.aov.empty() && !is_folder(options.aov)) check_target(options.aov);
+  if (options.dry_run) return 0;
+
+  const double start = cpu_seconds();
+  SampleBuffer samples = read_samples(options.input, read_options);
+  const double read = cpu_seconds();
+  const Result result = filter_with_progress(std::move(samples), settings, options.quiet ? "never" : options.progress);
+  write_results(options, result);
+  if (!options.quiet) print_notes(result.report);
+  if (options.verbose) print_report(result.report);
+  if (!options.quiet)
+    fmt::print("{}: {}x{} pixels, {} samples, {} passes in {:.1f} s ({:.1f} CPU seconds, {:.1f} of them reading)\n",
+               options.output, info.data_window.width, info.data_window.height, info.sample_count,
+               settings.box_widths.size(), result.report.seconds, cpu_seconds() - start, read - start);
+  return received_signal() == 0 ? 0 : 128 + received_signal();
+}
+
+}  // namespace
+
+Command add_filter_command(CLI::App& app) {
+  auto options = std::make_shared<FilterOptions>();
+  add_filter_options(app, *options);
+  return [options] { return run(*options); };
+}
+
+}  // namespace rpf::cli

@@ -1,0 +1,169 @@
+#include "cli/filter_options.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/environment.h"
+#include "rpf/error.h"
+
+namespace rpf::cli {
+namespace {
+
+[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& expected) {
+  throw Error(ErrorKind::usage, fmt::format("{} {}: {}", option, value, expected));
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t comma; (comma = text.find(',', begin)) != std::string::npos; begin = comma + 1)
+    parts.push_back(text.substr(begin, comma - begin));
+  parts.push_back(text.substr(begin));
+  return parts;
+}
+
+std::vector<int> box_widths(const std::string& text) {
+  std::vector<int> widths;
+  if (text == "none") return widths;
+  for (const std::string& part : split(text)) {
+    char* end = nullptr;
+    const long width = std::strtol(part.c_str(), &end, 10);
+    if (part.empty() || *end != 0 || width < 1 || width > 255)
+      refuse("--boxes", text,
+             "odd box widths from 1 to 255 are expected, such as 55,35,17,7, or none for the plain mean");
+    widths.push_back(static_cast<int>(width));
+  }
+  return widths;
+}
+
+std::vector<std::string> groups(const std::string& text) {
+  return text == "none" ? std::vector<std::string>{} : split(text);
+}
+
+/// WxH+X+Y as oiiotool writes it; X and Y may be negative (100x50-7+3).
+Window crop_window(const std::string& text) {
+  Window w;
+  int used = 0;
+  const bool parsed = std::sscanf(text.c_str(), "%dx%d%d%d%n", &w.width, &w.height, &w.x, &w.y, &used) == 4;
+  if (!parsed || used != static_cast<int>(text.size()) || w.width <= 0 || w.height <= 0)
+    refuse("--crop", text, "WIDTHxHEIGHT+X+Y is expected, such as 256x128+100+60");
+  return w;
+}
+
+void add_file_options(CLI::App& app, FilterOptions& o) {
+  app.add_option("-i,--input,INPUT", o.input, "Sample file (deep OpenEXR)")->type_name("FILE");
+  app.add_option("-o,--output", o.output, "Filtered image; the extension chooses the format (exr, png, ...)")
+      ->type_name("FILE");
+  app.add_option(
+         "--aov", o.aov,
+         "Also write the features, filtered with the same weights: layers of FILE.exr, or one file each in a folder")
+      ->type_name("FILE|DIR");
+  add_map_option(app, o.map);
+}
+
+void add_model_options(CLI::App& app, FilterOptions& o) {
+  app.add_option("--profile", o.profile,
+                 "thesis: M = b^2/2 samples a neighborhood; paper: M = b^2 s/2 and the outlier step")
+      ->check(CLI::IsMember({"thesis", "paper"}))
+      ->capture_default_str();
+  app.add_option("--boxes", o.boxes, "Box width of each pass in pixels, or none")
+      ->type_name("LIST")
+      ->default_str("55,35,17,7");
+  app.add_option("--samples-factor", o.samples_factor, "M = FACTOR * b^2 in place of the profile's")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--max-samples", o.settings.max_samples, "Upper limit of M")->check(CLI::PositiveNumber);
+  app.add_option("--noise", o.settings.noise, "sigma_8^2: 0.02 for very noisy scenes, 0.002 otherwise")
+      ->capture_default_str();
+  app.add_option("--bins", o.settings.bins, "Histogram bins, odd")->capture_default_str();
+  app.add_option("--features", o.features, "Groups of features to model, or none")
+      ->type_name("LIST")
+      ->default_str("all");
+  app.add_option("--random", o.random,
+                 "Groups of random parameters to model, all, or none; pixel is the position inside the pixel")
+      ->type_name("LIST")
+      ->default_str("lens,time,light where present, with pixel in the thesis profile");
+  app.add_option("--seed", o.settings.seed, "Seed of the neighborhood draws")->capture_default_str();
+}
+
+void add_tuning_options(CLI::App& app, FilterOptions& o) {
+  const std::string group = "Choices (docs/deviations.md)";
+  Settings& s = o.settings;
+  app.add_option("--alpha-factor", s.alpha_factor, "Factor in alpha (T 5.9)")->capture_default_str()->group(group);
+  app.add_option("--position-scale", s.position_scale, "Least tolerance of positions: 0.1 * scene diagonal / SCALE")
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--redraws", s.redraws, "Further attempts of a draw that left the image")
+      ->capture_default_str()
+      ->group(group);
+  app.add_flag("--reject-second-hit", s.reject_second_hit, "Features of the second hit take part in the rejection")
+      ->group(group);
+  app.add_flag("--bias-correction", s.bias_correction, "Subtract the bias of the mutual information")->group(group);
+  app.add_flag("--clamp-negative", s.clamp_negative, "Negative radiance becomes 0")->group(group);
+}
+
+void add_run_options(CLI::App& app, FilterOptions& o) {
+  const std::string group = "Running";
+  app.add_option("--backend", o.settings.backend, "cpu")->envname("RPF_BACKEND")->capture_default_str()->group(group);
+  app.add_option("--crop", o.crop, "Filter only this part; its pixels are those of the whole frame")
+      ->type_name("WxH+X+Y")
+      ->group(group);
+  app.add_option("-t,--threads", o.settings.threads, "Threads; all cores if not given")
+      ->check(CLI::PositiveNumber)
+      ->envname("RPF_NUM_THREADS")
+      ->group(group);
+  app.add_option("--max-memory", o.max_memory_mb, "Memory limit in MB")
+      ->check(CLI::PositiveNumber)
+      ->envname("RPF_MAX_MEMORY_MB")
+      ->group(group);
+  app.add_option("--progress", o.progress, "auto, never, always")
+      ->check(CLI::IsMember({"auto", "never", "always"}))
+      ->capture_default_str()
+      ->group(group);
+  app.add_flag("--dry-run", o.dry_run, "Check options, files and memory; write nothing")->group(group);
+  app.add_flag("-v,--verbose", o.verbose, "Say what every pass did")->group(group);
+  app.add_flag("-q,--quiet", o.quiet, "Only errors")->group(group);
+}
+
+}  // namespace
+
+void add_map_option(CLI::App& app, std::vector<std::string>& map) {
+  app.add_option("--map", map, "SLOT=CHANNEL: read a slot from a channel of another name; SLOT= leaves the slot out")
+      ->type_name("SLOT=CHANNEL")
+      ->allow_extra_args(false);
+}
+
+void add_filter_options(CLI::App& app, FilterOptions& options) {
+  add_file_options(app, options);
+  add_model_options(app, options);
+  add_tuning_options(app, options);
+  add_run_options(app, options);
+}
+
+Settings settings_of(const FilterOptions& o) {
+  Settings s = o.settings;
+  s.profile = o.profile == "paper" ? Profile::paper : Profile::thesis;
+  if (!o.boxes.empty()) s.box_widths = box_widths(o.boxes);
+  if (o.samples_factor > 0) s.samples_factor = o.samples_factor;
+  if (!o.features.empty()) s.features = groups(o.features);
+  if (!o.random.empty()) s.random = groups(o.random);
+  if (!o.crop.empty()) s.crop = crop_window(o.crop);
+  s.filter_features = !o.aov.empty();
+  if (s.threads == 0) s.threads = default_threads();
+  s.max_memory = o.max_memory_mb > 0 ? o.max_memory_mb << 20 : default_memory_limit();
+  return s;
+}
+
+SampleReadOptions read_options_of(const std::vector<std::string>& map, std::uint64_t max_memory) {
+  SampleReadOptions options;
+  options.max_memory = max_memory;
+  for (const std::string& entry : map) {
+    const auto equals = entry.find('=');
+    if (equals == std::string::npos || equals == 0)
+      refuse("--map", entry, "SLOT=CHANNEL is expected, such as feature.N.X=Ns.X");
+    options.slot_map[entry.substr(0, equals)] = entry.substr(equals + 1);
+  }
+  return options;
+}
+
+}  // namespace rpf::cli

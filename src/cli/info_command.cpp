@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/commands.h"
+#include "cli/environment.h"
+#include "cli/filter_options.h"
+#include "rpf/filter.h"
+
+namespace rpf::cli {
+namespace {
+
+std::string type_name(PixelType type) {
+  switch (type) {
+    case PixelType::half_float:
+      return "half";
+    case PixelType::full_float:
+      return "float";
+    case PixelType::unsigned_int:
+      return "uint";
+  }
+  return "?";
+}
+
+std::string window_text(const Window& w) { return fmt::format("{}x{}{:+}{:+}", w.width, w.height, w.x, w.y); }
+
+void print_file(const SampleFileInfo& info) {
+  const double pixels = static_cast<double>(info.data_window.pixel_count());
+  fmt::print("{}\n  data window {}, display window {}, compression {}\n", info.path, window_text(info.data_window),
+             window_text(info.display_window), info.compression);
+  fmt::print("  {} samples: {} to {} a pixel, {:.2f} on average, {} empty pixels\n", info.sample_count,
+             info.min_samples, info.max_samples, static_cast<double>(info.sample_count) / pixels, info.empty_pixels);
+}
+
+void print_channels(const SampleFileInfo& info, const std::vector<ChannelSurvey>& surveys) {
+  fmt::print("  {:<20} {:<20} {:<6} {:>12} {:>12}  {}\n", "slot", "<- channel", "type", "least", "largest", "remarks");
+  for (const SampleFileChannel& channel : info.channels) {
+    const auto found =
+        std::find_if(surveys.begin(), surveys.end(), [&](const ChannelSurvey& s) { return s.slot == channel.slot; });
+    if (found == surveys.end()) {
+      fmt::print("  {:<20} {:<20} {:<6}\n", "(not used)", channel.name, type_name(channel.type));
+      continue;
+    }
+    std::string remarks = found->constant ? "constant" : "";
+    if (found->non_finite > 0) remarks += fmt::format(" {} non-finite", found->non_finite);
+    fmt::print("  {:<20} {:<20} {:<6} {:>12.6g} {:>12.6g}  {}\n", channel.slot, channel.name, type_name(channel.type),
+               found->minimum, found->maximum, remarks);
+  }
+}
+
+void print_memory(const SampleFileInfo& info, const SampleBuffer& samples) {
+  Settings settings;
+  settings.threads = default_threads();
+  const FrameSize size{info.data_window.pixel_count(), info.sample_count, info.max_samples};
+  constexpr double megabyte = 1 << 20;
+  for (const Profile profile : {Profile::thesis, Profile::paper}) {
+    settings.profile = profile;
+    fmt::print("  predicted peak memory, {} profile, {} threads: {:.0f} MB\n",
+               profile == Profile::thesis ? "thesis" : "paper", settings.threads,
+               static_cast<double>(predict_memory(size, samples.layout, settings)) / megabyte);
+  }
+}
+
+}  // namespace
+
+Command add_info_command(CLI::App& app) {
+  struct Options {
+    std::string file;
+    std::vector<std::string> map;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("info", "Say what a sample file holds and what filtering it would take");
+  command->add_option("FILE", options->file, "Sample file (deep OpenEXR)")->required();
+  add_map_option(*command, options->map);
+  return [options] {
+    const SampleReadOptions read_options = read_options_of(options->map, default_memory_limit());
+    const SampleFileInfo info = inspect_samples(options->file, read_options);
+    const SampleBuffer samples = read_samples(options->file, read_options);
+    print_file(info);
+    print_channels(info, survey(samples));
+    print_memory(info, samples);
+    return 0;
+  };
+}
+
+}  // namespace rpf::cli

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <new>
+
+#include "cli/commands.h"
+#include "cli/signals.h"
+#include "rpf/error.h"
+#include "rpf/version.h"
+
+namespace rpf::cli {
+namespace {
+
+constexpr const char* footer = R"(Examples:
+  rpf render.samples.exr -o filtered.exr
+  rpf --boxes 21,11,5 --samples-factor 2 --noise 0.002 render.samples.exr -o filtered.png
+  rpf info render.samples.exr
+  rpf compare before.exr filtered.exr reference.exr --side-by-side picture.png
+
+Exit codes: 0 ok, 1 internal, 2 usage, 3 input, 4 output, 5 device, 6 memory, 128 + signal when stopped.)";
+
+int run(int argc, char** argv) {
+  CLI::App app(
+      "Random Parameter Filtering: removes the noise of lens, motion, soft shadow and gloss from Monte Carlo samples.",
+      "rpf");
+  app.set_version_flag("--version", std::string("rpf ") + version());
+  app.footer(footer);
+  app.require_subcommand(0, 1);
+  const Command filter_command = add_filter_command(app);
+  const Command info_command = add_info_command(app);
+  const Command compare_command = add_compare_command(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : static_cast<int>(ErrorKind::usage);
+  }
+  if (app.got_subcommand("info")) return info_command();
+  if (app.got_subcommand("compare")) return compare_command();
+  return filter_command();
+}
+
+int report(const char* message, ErrorKind kind) {
+  fmt::print(stderr, "rpf: error: {}\n", message);
+  return kind == ErrorKind::cancelled ? 128 + received_signal() : static_cast<int>(kind);
+}
+
+}  // namespace
+}  // namespace rpf::cli
+
+int main(int argc, char** argv) {
+  using namespace rpf;
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe shall not leave a temporary file behind
+  try {
+    return cli::run(argc, argv);
+  } catch (const Error& e) {
+    return cli::report(e.what(), e.kind());
+  } catch (const std::bad_alloc&) {
+    return cli::report("out of memory; lower --max-memory or --threads, or leave channels out", ErrorKind::memory);
+  } catch (const std::exception& e) {
+    return cli::report(e.what(), ErrorKind::internal);
+  }
+}

@@ -1,0 +1,18 @@
+#pragma once
+
+namespace rpf::cli {
+
+/// While one exists, SIGINT, SIGTERM and SIGHUP are remembered instead of ending the process, so that a run can stop
+/// between two tiles and clean up. Outside, they act as usual.
+class SignalGuard {
+ public:
+  SignalGuard();
+  ~SignalGuard();
+  SignalGuard(const SignalGuard&) = delete;
+  SignalGuard& operator=(const SignalGuard&) = delete;
+};
+
+/// The latest remembered signal, 0 if none.
+int received_signal();
+
+}  // namespace rpf::cli

@@ -1,0 +1,36 @@
+// The reference: plain loops over the kernels' formulas, parallel over pixels, the same bits for any number of threads.
+#pragma once
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include "backend.h"
+
+namespace rpf {
+
+class CpuBackend : public Backend {
+ public:
+  explicit CpuBackend(int threads)
+      : limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
+        threads_(threads),
+        arena_(threads) {}
+
+  void load(const Frame& frame, std::vector<float> colors, const Plan& plan) override;
+  void run(int pass, const Window& tile) override;
+  void end_pass() override;
+  std::vector<float> resolve() override;
+  const std::vector<PixelStatistics>& statistics() const override { return statistics_; }
+  std::uint64_t scratch_bytes(const Plan& plan) const override;
+  PixelTrace trace(int pass, std::uint32_t pixel) override;
+
+ private:
+  tbb::global_control limit_;  ///< lets oneTBB have more threads than cores where the caller asks for them
+  int threads_;
+  tbb::task_arena arena_;
+  const Frame* frame_ = nullptr;
+  const Plan* plan_ = nullptr;
+  std::vector<float> colors_, next_colors_;  ///< c' and c'': [sample][carried]
+  std::vector<PixelStatistics> statistics_;  ///< [pixel]
+};
+
+}  // namespace rpf

@@ -1,0 +1,145 @@
+#include "cpu/weighting.h"
+
+#include <algorithm>
+
+#include "rpf_math.h"
+
+namespace rpf {
+namespace {
+
+/// Adds one column: the variable's normalized values times `scale`. A scale of 0 takes no part in any distance.
+void add_coordinate(const Neighborhood& n, std::size_t variable, float scale, FilterScratch& scratch) {
+  if (!(scale > 0)) return;
+  const std::size_t stride = n.shift.size();
+  scratch.coordinates.resize((scratch.active + 1) * scratch.padded, 0.0F);
+  float* column = scratch.coordinates.data() + scratch.active * scratch.padded;
+  for (std::uint32_t j = 0; j < n.size(); ++j) column[j] = n.rows[j * stride + variable] * scale;
+  ++scratch.active;
+}
+
+/// Only variables with a weight above 0 become coordinates: colors first, then features.
+void set_coordinates(const Plan& plan, const Neighborhood& n, float sharpness, const FilterWeights& weights,
+                     FilterScratch& scratch) {
+  scratch.active = 0;
+  scratch.coordinates.clear();
+  for (std::size_t i = 0; i < 3; ++i)
+    add_coordinate(n, Variables::color + i, kernel::rpf_distance_scale(sharpness, weights.alpha[i]), scratch);
+  for (std::size_t k = 0; k < weights.beta.size(); ++k)
+    add_coordinate(n, plan.variables.features() + k, kernel::rpf_distance_scale(sharpness, weights.beta[k]), scratch);
+}
+
+void collect_colors(const Plan& plan, const Neighborhood& n, const std::vector<float>& colors, FilterScratch& scratch) {
+  const std::size_t carried = plan.carried;
+  scratch.colors.assign(carried * scratch.padded, 0.0F);
+  for (std::uint32_t j = 0; j < n.size(); ++j)
+    for (std::size_t c = 0; c < carried; ++c)
+      scratch.colors[c * scratch.padded + j] = colors[n.neighbors[j] * carried + c];
+  scratch.smallest.resize(carried);
+  scratch.largest.resize(carried);
+  for (std::size_t c = 0; c < carried; ++c) {
+    const float* column = scratch.colors.data() + c * scratch.padded;
+    const auto range = std::minmax_element(column, column + n.size());
+    scratch.smallest[c] = *range.first;
+    scratch.largest[c] = *range.second;
+  }
+}
+
+/// The weights of RPF_LANES neighbors from `begin` for own sample i; 0 behind the last neighbor.
+void block_weights(const FilterScratch& scratch, std::uint32_t i, std::uint32_t begin, std::uint32_t neighbors,
+                   float* weight) {
+  float distance[RPF_LANES] = {};
+  for (std::size_t a = 0; a < scratch.active; ++a) {
+    const float* column = scratch.coordinates.data() + a * scratch.padded;
+    const float own = column[i];
+    for (int l = 0; l < RPF_LANES; ++l) {
+      const float difference = own - column[begin + static_cast<std::uint32_t>(l)];
+      distance[l] += difference * difference;
+    }
+  }
+  for (int l = 0; l < RPF_LANES; ++l) weight[l] = kernel::rpf_weight(distance[l]);
+  for (std::uint32_t l = neighbors - begin; l < RPF_LANES; ++l) weight[l] = 0.0F;
+}
+
+/// Weighted sums over the neighborhood for one own sample.
+struct WeightedSums {
+  kernel::rpf_lanes weight;
+  std::vector<kernel::rpf_lanes> colors;  ///< [carried]
+
+  void clear(std::size_t carried) {
+    kernel::rpf_lanes_clear(&weight);
+    colors.assign(carried, weight);
+  }
+  void add(const float* block, const FilterScratch& scratch, std::uint32_t begin) {
+    for (int l = 0; l < RPF_LANES; ++l) weight.lane[l] += block[l];
+    for (std::size_t c = 0; c < colors.size(); ++c) {
+      const float* column = scratch.colors.data() + c * scratch.padded + begin;
+      for (int l = 0; l < RPF_LANES; ++l) colors[c].lane[l] += block[l] * column[l];
+    }
+  }
+};
+
+/// Mean and standard deviation of one channel of a pixel's filtered samples. The mean is relative to `shift`: with two
+/// samples both are exactly one standard deviation off, and only differences tell that from more.
+struct ChannelMoments {
+  float shift = 0, mean = 0, deviation = 0;
+};
+
+ChannelMoments channel_moments(const float* filtered, std::uint32_t samples, std::size_t carried, int channel,
+                               float shift) {
+  ChannelMoments m;
+  m.shift = shift;
+  kernel::rpf_lanes sum;
+  kernel::rpf_lanes_clear(&sum);
+  for (std::uint32_t i = 0; i < samples; ++i) kernel::rpf_lanes_add(&sum, i, filtered[i * carried + channel] - shift);
+  m.mean = kernel::rpf_lanes_total(&sum) / static_cast<float>(samples);
+  kernel::rpf_lanes_clear(&sum);
+  for (std::uint32_t i = 0; i < samples; ++i) {
+    const float off = (filtered[i * carried + channel] - shift) - m.mean;
+    kernel::rpf_lanes_add(&sum, i, off * off);
+  }
+  m.deviation = kernel::sqrt(kernel::rpf_lanes_total(&sum) / static_cast<float>(samples));
+  return m;
+}
+
+}  // namespace
+
+void filter_samples(const Plan& plan, const Neighborhood& n, std::uint32_t own, const FilterWeights& weights,
+                    const std::vector<float>& colors, FilterScratch& scratch, float* out,
+                    std::vector<float>* weights_out) {
+  scratch.padded = (n.size() + RPF_LANES - 1) / RPF_LANES * RPF_LANES;
+  set_coordinates(plan, n, kernel::rpf_sharpness(weights.fraction_random, plan.noise, own), weights, scratch);
+  collect_colors(plan, n, colors, scratch);
+  WeightedSums sums;
+  float block[RPF_LANES];
+  for (std::uint32_t i = 0; i < own; ++i) {
+    sums.clear(plan.carried);
+    for (std::uint32_t begin = 0; begin < n.size(); begin += RPF_LANES) {
+      block_weights(scratch, i, begin, n.size(), block);
+      sums.add(block, scratch, begin);
+      if (weights_out)
+        weights_out->insert(weights_out->end(), block, block + std::min<std::uint32_t>(RPF_LANES, n.size() - begin));
+    }
+    const float total = kernel::rpf_lanes_total(&sums.weight);
+    for (std::size_t c = 0; c < plan.carried; ++c)
+      out[i * plan.carried + c] = kernel::rpf_filtered(kernel::rpf_lanes_total(&sums.colors[c]), total,
+                                                       scratch.smallest[c], scratch.largest[c]);
+  }
+}
+
+void replace_outliers(float* filtered, std::uint32_t samples, std::size_t carried) {
+  ChannelMoments before[3];
+  for (int c = 0; c < 3; ++c) before[c] = channel_moments(filtered, samples, carried, c, filtered[c]);
+  for (std::uint32_t i = 0; i < samples; ++i) {
+    float* sample = filtered + i * carried;
+    bool outlier = false;
+    for (int c = 0; c < 3; ++c)
+      outlier = outlier || kernel::rpf_is_outlier(sample[c] - before[c].shift, before[c].mean, before[c].deviation);
+    for (int c = 0; outlier && c < 3; ++c) sample[c] = before[c].shift + before[c].mean;
+  }
+  for (int c = 0; c < 3; ++c) {
+    const float taken = before[c].mean - channel_moments(filtered, samples, carried, c, before[c].shift).mean;
+    for (std::uint32_t i = 0; i < samples; ++i) filtered[i * carried + c] += taken;
+  }
+}
+
+}  // namespace rpf

@@ -1,0 +1,173 @@
+#include "driver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "memory.h"
+#include "progress_meter.h"
+#include "provenance.h"
+#include "rpf/error.h"
+
+namespace rpf {
+namespace {
+
+using Pixels = std::vector<float>;  ///< [pixel][carried]
+
+/// Sum of R, G and B over the crop.
+double energy(const Pixels& pixels, const FrameFacts& facts) {
+  double sum = 0;
+  for (int y = facts.crop.y; y < facts.crop.y + facts.crop.height; ++y)
+    for (int x = facts.crop.x; x < facts.crop.x + facts.crop.width; ++x) {
+      const float* pixel = pixels.data() + (static_cast<std::size_t>(y) * facts.width + x) * facts.carried;
+      sum += static_cast<double>(pixel[0]) + pixel[1] + pixel[2];
+    }
+  return sum;
+}
+
+/// Means in a fixed order over the pixels, so that the report too does not depend on threads or tiles.
+PassReport summarize(const std::vector<PixelStatistics>& statistics, const Frame& frame, const PassPlan& pass) {
+  PassReport report;
+  report.box_width = pass.box_width;
+  double pixels = 0, accepted = 0, drawn = 0;
+  for (int y = pass.region.y; y < pass.region.y + pass.region.height; ++y)
+    for (int x = pass.region.x; x < pass.region.x + pass.region.width; ++x) {
+      const std::size_t pixel = static_cast<std::size_t>(y) * frame.width + x;
+      const PixelStatistics& s = statistics[pixel];
+      if (s.neighbors == 0) continue;
+      ++pixels;
+      drawn += s.drawn;
+      accepted += s.neighbors - frame.samples(pixel);
+      report.neighbors += s.neighbors;
+      report.fraction_random += s.fraction_random;
+      report.alpha += s.alpha;
+      report.beta += s.beta;
+    }
+  const double n = std::max(pixels, 1.0);
+  report.acceptance = drawn > 0 ? accepted / drawn : 0;
+  for (double* mean : {&report.neighbors, &report.fraction_random, &report.alpha, &report.beta}) *mean /= n;
+  return report;
+}
+
+/// Cuts a region into tiles of at most `pixels` pixels: bands of whole rows, or parts of a row.
+std::vector<Window> cut(const Window& region, std::size_t pixels) {
+  std::vector<Window> tiles;
+  const int width = static_cast<int>(std::min<std::size_t>(region.width, pixels));
+  const int height = static_cast<int>(std::min<std::size_t>(region.height, std::max<std::size_t>(1, pixels / width)));
+  for (int y = 0; y < region.height; y += height)
+    for (int x = 0; x < region.width; x += width)
+      tiles.push_back(
+          {region.x + x, region.y + y, std::min(width, region.width - x), std::min(height, region.height - y)});
+  return tiles;
+}
+
+/// Copies some of the carried channels of the crop into an image, undoing the radiance scale for the color.
+Image image_of(const Pixels& pixels, const PreparedFrame& prepared, const Image& geometry, std::size_t first,
+               std::size_t last) {
+  const FrameFacts& facts = prepared.facts;
+  Image image = geometry;
+  image.channels.assign(prepared.carried_names.begin() + static_cast<std::ptrdiff_t>(first),
+                        prepared.carried_names.begin() + static_cast<std::ptrdiff_t>(last));
+  image.pixels.reserve(facts.crop.pixel_count() * image.channel_count());
+  for (int y = facts.crop.y; y < facts.crop.y + facts.crop.height; ++y)
+    for (int x = facts.crop.x; x < facts.crop.x + facts.crop.width; ++x)
+      for (std::size_t c = first; c < last; ++c) {
+        const float value = pixels[(static_cast<std::size_t>(y) * facts.width + x) * facts.carried + c];
+        image.pixels.push_back(c < 3 ? value / prepared.radiance_scale : value);
+      }
+  return image;
+}
+
+/// Channels of the image proper: R, G, B, and A where there is one. The features follow.
+std::size_t color_channels(const PreparedFrame& prepared) {
+  const auto& names = prepared.carried_names;
+  return names.size() > 3 && names[3] == "A" ? 4 : 3;
+}
+
+/// One run: frame, plan and backend together.
+class Run {
+ public:
+  Run(SampleBuffer samples, const Settings& settings, const Control& control)
+      : settings_(settings),
+        control_(control),
+        threads_(settings.threads > 0 ? settings.threads : available_threads()) {
+    samples.validate();
+    validate(settings);
+    geometry_.data_window = settings.crop.value_or(samples.data_window);
+    geometry_.display_window = samples.display_window;
+    geometry_.metadata = samples.metadata;
+    check_memory(samples, settings);
+    backend_ = make_backend(settings.backend, threads_);
+    prepared_ = prepare(std::move(samples), settings);
+    plan_ = make_plan(prepared_.facts, settings);
+  }
+
+  Result finish(const PassObserver& before_pass) {
+    ProgressMeter meter(plan_, control_);
+    Result result;
+    backend_->load(prepared_.frame, std::move(prepared_.colors), plan_);
+    Pixels pixels = backend_->resolve();
+    const double plain_energy = energy(pixels, prepared_.facts);
+    for (int pass = 0; pass < static_cast<int>(plan_.passes.size()); ++pass) {
+      if (before_pass) before_pass(*backend_, plan_, pass);
+      PassReport report = run_pass(pass, meter);
+      pixels = backend_->resolve();
+      const double kept = energy(pixels, prepared_.facts);
+      report.energy = kept == plain_energy ? 1 : kept / plain_energy;
+      result.report.passes.push_back(report);
+    }
+    describe(result, pixels);
+    result.report.seconds = meter.seconds();
+    return result;
+  }
+
+ private:
+  PassReport run_pass(int pass, ProgressMeter& meter) {
+    const PassPlan& plan = plan_.passes[static_cast<std::size_t>(pass)];
+    const double start = meter.seconds();
+    const std::size_t size =
+        control_.tile_pixels > 0 ? control_.tile_pixels : tile_pixels(plan.max_neighbors, threads_);
+    meter.add(pass, 0);
+    for (const Window& tile : cut(plan.region, size)) {
+      backend_->run(pass, tile);
+      meter.add(pass, tile.pixel_count());
+    }
+    backend_->end_pass();
+    PassReport report = summarize(backend_->statistics(), prepared_.frame, plan);
+    report.seconds = meter.seconds() - start;
+    return report;
+  }
+
+  void describe(Result& result, const Pixels& pixels) {
+    result.report.backend = settings_.backend;
+    result.report.random = plan_.variables.random_names;
+    result.report.features = plan_.variables.feature_names;
+    result.report.dropped = prepared_.dropped;
+    result.report.notes = prepared_.notes;
+    geometry_.metadata = provenance(geometry_.metadata, settings_, result.report);
+    const std::size_t colors = color_channels(prepared_);
+    result.image = image_of(pixels, prepared_, geometry_, 0, colors);
+    if (prepared_.carried_names.size() > colors)
+      result.features = image_of(pixels, prepared_, geometry_, colors, prepared_.carried_names.size());
+  }
+
+  const Settings& settings_;
+  const Control& control_;
+  int threads_;
+  Image geometry_;  ///< windows and metadata of the result
+  PreparedFrame prepared_;
+  Plan plan_;
+  std::unique_ptr<Backend> backend_;  ///< last: it refers to frame and plan
+};
+
+}  // namespace
+
+Result run_filter(SampleBuffer samples, const Settings& settings, const Control& control,
+                  const PassObserver& before_pass) {
+  return Run(std::move(samples), settings, control).finish(before_pass);
+}
+
+Result filter(SampleBuffer samples, const Settings& settings, const Control& control) {
+  return run_filter(std::move(samples), settings, control, {});
+}
+
+}  // namespace rpf

@@ -1,0 +1,18 @@
+// The shared driver: runs a plan on a backend, pass by pass, tile by tile. It knows no device.
+#pragma once
+
+#include <functional>
+
+#include "backend.h"
+#include "rpf/filter.h"
+
+namespace rpf {
+
+/// Called before each pass with the backend in the state that the pass starts from; for conformance tests.
+using PassObserver = std::function<void(Backend&, const Plan&, int pass)>;
+
+/// filter() of the public header, with an observer.
+Result run_filter(SampleBuffer samples, const Settings& settings, const Control& control,
+                  const PassObserver& before_pass);
+
+}  // namespace rpf

@@ -1,0 +1,90 @@
+#include "io/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+
+#include "io/checked_writer.h"
+#include "rpf/error.h"
+
+namespace rpf::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Distinguishes the temporary files of one process.
+std::atomic<unsigned> next_number{0};
+
+std::string folder_of(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  return folder.empty() ? "." : folder.string();
+}
+
+// The file that a symbolic link stands for. The temporary file is made beside it: a rename cannot cross disks.
+std::string behind_links(const std::string& target) {
+  std::error_code error;
+  if (!fs::is_symlink(target, error)) return target;
+  const fs::path place = fs::weakly_canonical(target, error);
+  return error ? target : place.string();
+}
+
+// What renaming onto `place` would replace.
+void check_existing(const std::string& target, const std::string& place) {
+  if (target.empty()) throw Error(ErrorKind::usage, "the output path is empty; give the name of a file to write");
+  std::error_code error;
+  const fs::file_status status = fs::status(place, error);
+  if (!fs::exists(status) || fs::is_regular_file(status)) return;
+  throw Error(ErrorKind::output,
+              fmt::format("\"{}\" is {}, but a result must be a regular file; give the name of a file", target,
+                          fs::is_directory(status) ? "a folder" : "a device or pipe"));
+}
+
+void sync_folder(const std::string& target, const std::string& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;  // a folder that may be written to but not read: the rename itself is done
+  const int result = ::fsync(descriptor);
+  const int error = errno;
+  ::close(descriptor);
+  // Some network file systems cannot sync folders and say EINVAL.
+  if (result != 0 && error != EINVAL && error != ENOTSUP) fail_writing(target, error);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::string& target) : target_(target), place_(behind_links(target)) {
+  check_existing(target_, place_);
+  const fs::path folder = folder_of(place_);
+  const std::string extension = fs::path(place_).extension().string();
+  do {
+    const std::string name = fmt::format(".rpf-{}-{}{}", ::getpid(), next_number++, extension);
+    temporary_ = (folder / name).string();
+    descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (descriptor_ < 0 && errno == EEXIST);  // left by a killed process of the same number
+  if (descriptor_ < 0) fail_writing(target_, errno);
+}
+
+AtomicFile::~AtomicFile() {
+  close();
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::close() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+}
+
+void AtomicFile::commit() {
+  // Without it a power cut could leave the new name with an empty file.
+  if (::fsync(descriptor_) != 0) fail_writing(target_, errno);
+  close();
+  if (std::rename(temporary_.c_str(), place_.c_str()) != 0) fail_writing(target_, errno);
+  temporary_.clear();  // nothing left to remove
+  sync_folder(target_, folder_of(place_));
+}
+
+}  // namespace rpf::io

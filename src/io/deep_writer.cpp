@@ -1,0 +1,204 @@
+// Deep scan-line OpenEXR out, through a stream that loses no error.
+#include <ImfChannelList.h>
+#include <ImfChromaticitiesAttribute.h>
+#include <ImfDeepFrameBuffer.h>
+#include <ImfDeepScanLineOutputFile.h>
+#include <ImfFloatAttribute.h>
+#include <ImfFloatVectorAttribute.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfIntAttribute.h>
+#include <ImfMatrixAttribute.h>
+#include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
+#include <ImfVecAttribute.h>
+#include <fmt/format.h>
+#include <half.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "io/atomic_file.h"
+#include "io/attributes.h"
+#include "io/checked_writer.h"
+#include "io/guard.h"
+#include "io/near_names.h"
+#include "io/row_base.h"
+#include "rpf/error.h"
+#include "rpf/io.h"
+
+namespace rpf::io {
+namespace {
+
+class WriterStream : public Imf::OStream {
+ public:
+  WriterStream(CheckedWriter& writer, const std::string& name) : OStream(name.c_str()), writer_(writer) {}
+  void write(const char* bytes, int count) override {
+    // OpenEXR stops at an exception; the reason stays in the writer.
+    if (!writer_.write(bytes, static_cast<std::size_t>(count))) throw std::runtime_error("write failed");
+  }
+  std::uint64_t tellp() override { return writer_.position(); }
+  void seekp(std::uint64_t position) override { writer_.seek(position); }
+
+ private:
+  CheckedWriter& writer_;
+};
+
+template <class Value>
+Value vector_value(const std::vector<float>& floats) {
+  Value value;  // Imath's vectors and matrices are plain arrays of floats
+  std::copy(floats.begin(), floats.end(), reinterpret_cast<float*>(&value));
+  return value;
+}
+
+void insert_floats(Imf::Header& header, const std::string& name, const std::vector<float>& floats) {
+  if (name == "chromaticities" && floats.size() == 8)
+    return header.insert(name, Imf::ChromaticitiesAttribute(vector_value<Imf::Chromaticities>(floats)));
+  switch (floats.size()) {
+    case 2:
+      return header.insert(name, Imf::V2fAttribute(vector_value<Imath::V2f>(floats)));
+    case 3:
+      return header.insert(name, Imf::V3fAttribute(vector_value<Imath::V3f>(floats)));
+    case 9:
+      return header.insert(name, Imf::M33fAttribute(vector_value<Imath::M33f>(floats)));
+    case 16:
+      return header.insert(name, Imf::M44fAttribute(vector_value<Imath::M44f>(floats)));
+    default:
+      return header.insert(name, Imf::FloatVectorAttribute(floats));
+  }
+}
+
+void insert_attribute(Imf::Header& header, const std::string& name, const Attribute& value) {
+  if (const auto* number = std::get_if<std::int32_t>(&value)) header.insert(name, Imf::IntAttribute(*number));
+  if (const auto* real = std::get_if<float>(&value)) header.insert(name, Imf::FloatAttribute(*real));
+  if (const auto* text = std::get_if<std::string>(&value)) header.insert(name, Imf::StringAttribute(*text));
+  if (const auto* floats = std::get_if<std::vector<float>>(&value)) insert_floats(header, name, *floats);
+}
+
+Imath::Box2i box_of(const Window& window) {
+  return {Imath::V2i(window.x, window.y), Imath::V2i(window.x + window.width - 1, window.y + window.height - 1)};
+}
+
+// ZIPS: one row a chunk, so rows can be read alone.
+Imf::Header header_of(const SampleBuffer& samples, const std::vector<Imf::PixelType>& types) {
+  Imf::Header header(box_of(samples.display_window), box_of(samples.data_window));
+  header.setType(Imf::DEEPSCANLINE);
+  header.compression() = Imf::ZIPS_COMPRESSION;
+  for (std::size_t c = 0; c < types.size(); ++c)
+    header.channels().insert(samples.layout.slots[c], Imf::Channel(types[c]));
+  for (const auto& [name, value] : samples.metadata)
+    if (!is_structural(name)) insert_attribute(header, name, value);
+  header.insert(format_attribute, Imf::StringAttribute(format_value));
+  header.insert(version_attribute, Imf::IntAttribute(format_version));
+  return header;
+}
+
+std::vector<Imf::PixelType> types_of(const SampleLayout& layout, const std::vector<std::string>& half_slots) {
+  std::vector<Imf::PixelType> types(layout.size(), Imf::FLOAT);
+  for (const std::string& slot : half_slots) {
+    const auto column = layout.find(slot);
+    if (!column)
+      throw Error(ErrorKind::usage, fmt::format("slot \"{}\" cannot be stored as half because the samples do not have "
+                                                "it; near names are {}",
+                                                slot, near_names(slot, layout.slots)));
+    types[*column] = Imf::HALF;
+  }
+  return types;
+}
+
+// One row of the buffer as OpenEXR wants it: counts, and for each channel and pixel a pointer to the first value.
+class RowSource {
+ public:
+  RowSource(const SampleBuffer& samples, const std::vector<Imf::PixelType>& types)
+      : samples_(samples), types_(types), width_(static_cast<std::size_t>(samples.data_window.width)) {
+    counts_.resize(width_);
+    pointers_.resize(width_ * types.size());
+    halves_.resize(types.size());
+  }
+
+  Imf::DeepFrameBuffer frame() {
+    const int min_x = samples_.data_window.x;
+    Imf::DeepFrameBuffer frame;
+    // Every row of pixels uses the same row of counts and pointers (y stride 0).
+    frame.insertSampleCountSlice(Imf::Slice(Imf::UINT, row_base(counts_.data(), min_x), sizeof(unsigned), 0));
+    for (std::size_t c = 0; c < types_.size(); ++c) {
+      const std::size_t stride = types_[c] == Imf::HALF ? sizeof(half) : samples_.layout.size() * sizeof(float);
+      frame.insert(samples_.layout.slots[c], Imf::DeepSlice(types_[c], row_base(pointers_.data() + c * width_, min_x),
+                                                            sizeof(const char*), 0, stride));
+    }
+    return frame;
+  }
+
+  void fill(std::size_t row) {
+    const std::uint32_t* first = samples_.first_sample.data() + row * width_;
+    for (std::size_t x = 0; x < width_; ++x) counts_[x] = first[x + 1] - first[x];
+    for (std::size_t c = 0; c < types_.size(); ++c) {
+      if (types_[c] == Imf::HALF) convert(c, first[0], first[width_]);
+      for (std::size_t x = 0; x < width_; ++x)
+        pointers_[c * width_ + x] = types_[c] == Imf::HALF
+                                        ? reinterpret_cast<const char*>(halves_[c].data() + (first[x] - first[0]))
+                                        : reinterpret_cast<const char*>(samples_.record(first[x]) + c);
+    }
+  }
+
+ private:
+  void convert(std::size_t column, std::size_t begin, std::size_t end) {
+    halves_[column].resize(end - begin);
+    for (std::size_t s = begin; s < end; ++s) halves_[column][s - begin] = half(samples_.record(s)[column]);
+  }
+
+  const SampleBuffer& samples_;
+  const std::vector<Imf::PixelType>& types_;
+  std::size_t width_;
+  std::vector<unsigned> counts_;
+  std::vector<const char*> pointers_;      ///< [column][x]
+  std::vector<std::vector<half>> halves_;  ///< [column][sample of the row]
+};
+
+// The output file writes its table of rows when it is destroyed, so it must be gone before writer.finish().
+void write_deep(CheckedWriter& writer, const std::string& path, const SampleBuffer& samples,
+                const std::vector<Imf::PixelType>& types) {
+  WriterStream stream(writer, path);
+  Imf::DeepScanLineOutputFile file(stream, header_of(samples, types), 0);
+  RowSource source(samples, types);
+  file.setFrameBuffer(source.frame());
+  for (int row = 0; row < samples.data_window.height; ++row) {
+    source.fill(static_cast<std::size_t>(row));
+    file.writePixels(1);
+  }
+}
+
+// Reads header and counts of the file just written, so that a defect of the writer does not replace a good file.
+void check_written(const std::string& path, const std::string& temporary, const SampleBuffer& samples) {
+  SampleReadOptions options;
+  const SampleFileInfo info = inspect_samples(temporary, options);
+  if (info.sample_count != samples.sample_count() || !(info.data_window == samples.data_window))
+    throw Error(ErrorKind::output, fmt::format("\"{}\" was not written correctly: {} of {} samples came back; check "
+                                               "the disk and write it again",
+                                               path, info.sample_count, samples.sample_count()));
+}
+
+}  // namespace
+}  // namespace rpf::io
+
+namespace rpf {
+
+void write_samples(const std::string& path, const SampleBuffer& samples, const std::vector<std::string>& half_slots) {
+  samples.validate();
+  const auto types = io::types_of(samples.layout, half_slots);
+  io::AtomicFile file(path);  // removed again by whatever is thrown below
+  io::CheckedWriter writer(file.descriptor(), path);
+  try {
+    io::write_deep(writer, path, samples, types);
+  } catch (const std::exception& error) {
+    writer.finish();  // throws the reason if it was a failed write
+    throw Error(ErrorKind::output, fmt::format("\"{}\" cannot be written ({}); correct the samples or their metadata",
+                                               path, io::first_line(error.what())));
+  }
+  writer.finish();
+  io::check_written(path, file.temporary_path(), samples);
+  file.commit();
+}
+
+}  // namespace rpf

@@ -1,0 +1,119 @@
+// Images in, through OpenImageIO, as linear float.
+#include <OpenImageIO/imageio.h>
+
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+#include "io/attributes.h"
+#include "io/file_bytes.h"
+#include "io/guard.h"
+#include "io/srgb.h"
+#include "rpf/io.h"
+
+namespace rpf::io {
+namespace {
+
+namespace oiio = OIIO;
+
+[[noreturn]] void reject(const std::string& path, const std::string& what) {
+  throw Error(ErrorKind::input, fmt::format("\"{}\" {}", path, what));
+}
+
+std::unique_ptr<oiio::ImageInput> open_image(const std::string& path) {
+  const FileBytes checked(path);  // for its clear errors: missing, folder, no permission
+  oiio::ImageSpec config;
+  // OpenImageIO would multiply the encoded colors by alpha; we do it after decoding.
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  auto input = oiio::ImageInput::open(path, &config);
+  if (!input)
+    reject(path, fmt::format("cannot be read as an image ({}); use .exr, .tif, .hdr, .png or another image format",
+                             first_line(oiio::geterror())));
+  if (input->spec().deep) reject(path, "is a deep file, but a flat image is needed; filter the samples first");
+  return input;
+}
+
+// How stored values become linear light: the exponent of a power curve, 0 for sRGB, 1 for linear values.
+double gamma_of(const oiio::ImageSpec& spec) {
+  // 16-bit integers are encoded like 8-bit ones; float formats hold linear light whatever they say.
+  const std::string space = spec.get_string_attribute("oiio:ColorSpace");
+  const bool integer = !spec.format.is_floating_point();
+  if (space == "Linear" || !integer) return 1;
+  if (space.compare(0, 5, "Gamma") == 0) {
+    double gamma = 0;
+    std::from_chars(space.data() + 5, space.data() + space.size(), gamma);  // strtod would ask the locale
+    return gamma > 0 ? gamma : 1;
+  }
+  return 0;
+}
+
+bool is_color(const oiio::ImageSpec& spec, int channel) {
+  return channel != spec.alpha_channel && channel != spec.z_channel;
+}
+
+void to_linear(const oiio::ImageSpec& spec, Image& image) {
+  const double gamma = gamma_of(spec);
+  if (gamma == 1) return;
+  for (std::size_t pixel = 0; pixel < image.data_window.pixel_count(); ++pixel)
+    for (int c = 0; c < spec.nchannels; ++c) {
+      float& value = image.pixel(pixel)[c];
+      if (is_color(spec, c)) value = static_cast<float>(gamma == 0 ? srgb_decode(value) : std::pow(value, gamma));
+    }
+}
+
+// Our images have colors multiplied by alpha, as renderers write them.
+void multiply_by_alpha(const oiio::ImageSpec& spec, Image& image) {
+  if (spec.alpha_channel < 0 || spec.get_int_attribute("oiio:UnassociatedAlpha") == 0) return;
+  for (std::size_t pixel = 0; pixel < image.data_window.pixel_count(); ++pixel)
+    for (int c = 0; c < spec.nchannels; ++c)
+      if (is_color(spec, c)) image.pixel(pixel)[c] *= image.pixel(pixel)[spec.alpha_channel];
+}
+
+// Attributes that describe the file ("tiff:RowsPerStrip") are left out.
+void take_attribute(const oiio::ParamValue& attribute, const std::string& format, Metadata& metadata) {
+  const std::string name = exr_name(attribute.name().string());
+  const oiio::TypeDesc type = attribute.type();
+  const auto count = type.numelements() * type.aggregate;
+  for (const std::string& prefix : {std::string("oiio:"), format + ":"})
+    if (name.compare(0, prefix.size(), prefix) == 0) return;
+  if (is_structural(name)) return;
+  if (type == oiio::TypeString) metadata[name] = attribute.get_string();
+  if (type == oiio::TypeInt) metadata[name] = static_cast<std::int32_t>(attribute.get_int());
+  if (type.basetype != oiio::TypeDesc::FLOAT) return;
+  const auto* first = static_cast<const float*>(attribute.data());
+  if (count == 1)
+    metadata[name] = *first;
+  else
+    metadata[name] = std::vector<float>(first, first + count);
+}
+
+Image describe(const oiio::ImageSpec& spec, const std::string& format) {
+  Image image;
+  image.data_window = {spec.x, spec.y, spec.width, spec.height};
+  image.display_window = {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
+  image.channels = spec.channelnames;
+  for (const oiio::ParamValue& attribute : spec.extra_attribs) take_attribute(attribute, format, image.metadata);
+  return image;
+}
+
+}  // namespace
+}  // namespace rpf::io
+
+namespace rpf {
+
+Image read_image(const std::string& path) {
+  return io::guard_input(path, [&] {
+    const auto input = io::open_image(path);
+    const OIIO::ImageSpec& spec = input->spec();
+    Image image = io::describe(spec, input->format_name());
+    image.pixels.resize(image.data_window.pixel_count() * image.channel_count());
+    const bool done = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, image.pixels.data());
+    // A truncated TIFF is "read" with success and an error waiting.
+    if (!done || input->has_error()) throw std::runtime_error(input->geterror());
+    io::to_linear(spec, image);
+    io::multiply_by_alpha(spec, image);
+    return image;
+  });
+}
+
+}  // namespace rpf

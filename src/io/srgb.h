@@ -1,0 +1,11 @@
+// The sRGB transfer function (IEC 61966-2-1) in closed form.
+#pragma once
+
+namespace rpf::io {
+
+/// Linear light to sRGB, without clamping; odd in its argument, so that negative light stays defined.
+double srgb_encode(double linear);
+/// The inverse of srgb_encode.
+double srgb_decode(double encoded);
+
+}  // namespace rpf::io

@@ -1,0 +1,85 @@
+// The plan: settings and frame turned into plain data. Backends read it and decide nothing themselves.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rpf/filter.h"
+#include "rpf/settings.h"
+#include "tables.h"
+
+namespace rpf {
+
+/// The largest M and the largest number of samples a pixel: counters, tables and float counts stay exact below it.
+constexpr std::uint32_t most_neighbors = 1U << 24;
+
+/// How many samples a neighborhood asks for: M of algorithm.md, section 3.
+struct NeighborhoodSize {
+  std::uint32_t box_area = 1;       ///< b^2
+  bool grows_with_samples = false;  ///< M = b^2 s / 2 (paper) instead of `fixed`
+  std::uint32_t fixed = 0;          ///< M otherwise
+  std::uint32_t limit = most_neighbors;
+
+  std::uint32_t size(std::uint32_t samples) const;
+  /// Candidates to draw for a pixel with so many samples of its own: M - s, not below 0.
+  std::uint32_t draws(std::uint32_t samples) const;
+};
+
+struct PassPlan {
+  int box_width = 1;
+  float growth = 1;  ///< 1 + 0.1 t of (T 5.9)
+  NeighborhoodSize neighborhood;
+  std::uint32_t max_neighbors = 0;   ///< no N of this pass is larger
+  std::vector<std::int8_t> offsets;  ///< offset_table(box_width)
+  EntropyTable entropy;
+  float nats_per_unit = 0;  ///< ln 2 / entropy.units_per_bit
+  Window region;  ///< pixels to filter in this pass, frame coordinates (the crop and what later passes need around it)
+};
+
+/// The variables of a record, in this order: color 3, position 2, random parameters, features.
+struct Variables {
+  static constexpr std::size_t color = 0, position = 3, random = 5;
+  std::vector<std::string> random_names, feature_names;  ///< "lens.U", "N.X"
+
+  std::size_t features() const { return random + random_names.size(); }
+  std::size_t count() const { return features() + feature_names.size(); }
+};
+
+struct Plan {
+  int width = 0, height = 0;  ///< of the frame; pixel = y * width + x
+  Variables variables;
+  std::vector<float> rejection_factor;   ///< [feature] H
+  std::vector<float> minimum_tolerance;  ///< [feature] a; infinity: takes no part in the rejection test
+  std::size_t carried = 3;  ///< values a sample that are averaged: color, then alpha and features on request
+
+  std::uint32_t seed = 1;
+  std::uint32_t attempts = 9;  ///< of a draw: 1 + redraws
+  int half_bins = 3;           ///< K
+  int entropy_slack = 0;
+  float information_bias = 0;  ///< times 1/N, subtracted from every mutual information
+  float alpha_factor = 2;
+  float noise = 0.02F;
+  bool outlier_step = false;
+  std::vector<PassPlan> passes;
+};
+
+/// What the plan needs to know of the prepared frame.
+struct FrameFacts {
+  int width = 0, height = 0;
+  std::uint32_t max_samples_per_pixel = 0;
+  Variables variables;
+  float position_diagonal = 0;  ///< of the box of all first-hit world positions
+  std::size_t carried = 3;
+  Window crop;  ///< frame coordinates; the pixels that are wanted in the end
+};
+
+/// Throws Error(usage) that names the first setting that cannot be, and what can.
+void validate(const Settings& settings);
+
+Plan make_plan(const FrameFacts& facts, const Settings& settings);
+
+/// The neighborhood size of one pass.
+NeighborhoodSize neighborhood_size(const Settings& settings, int box_width);
+
+}  // namespace rpf

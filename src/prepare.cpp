@@ -1,0 +1,304 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "frame.h"
+#include "rpf/error.h"
+
+namespace rpf {
+namespace {
+
+constexpr float missing = std::numeric_limits<float>::quiet_NaN();
+
+/// Larger feature values count as missing: their squares would not survive a sum. Renderers write such values for "no
+/// hit".
+constexpr float largest_feature = 1e15F;
+
+/// The brightest value of the frame is brought to [2^40, 2^41): squares and sums of millions of them stay finite, and
+/// values 2^-166 times as bright are still normal numbers.
+constexpr int brightest_exponent = 40;
+
+/// One value of a new record: a column of the old one, or what is computed from it.
+struct Source {
+  enum Kind { color, plain, fraction } kind = plain;
+  std::size_t column = 0;
+};
+
+/// Counts a kind of oddity and remembers the first pixel that has it.
+class NoteBook {
+ public:
+  NoteBook(const Window& window, std::vector<InputNote>& notes) : window_(window), notes_(notes) {}
+
+  void add(const std::string& what, std::size_t pixel) {
+    for (InputNote& note : notes_)
+      if (note.what == what) {
+        ++note.count;
+        return;
+      }
+    const auto width = static_cast<std::size_t>(window_.width);
+    notes_.push_back(
+        {what, 1, window_.x + static_cast<int>(pixel % width), window_.y + static_cast<int>(pixel / width)});
+  }
+
+ private:
+  Window window_;
+  std::vector<InputNote>& notes_;
+};
+
+struct Columns {
+  std::size_t color[3] = {0, 0, 0}, film[2] = {0, 0};
+  std::optional<std::size_t> alpha, weight, hit;
+  std::vector<std::size_t> normal;     ///< of the first hit: 3 columns, or none
+  std::vector<std::size_t> position;   ///< of the first hit: the components there are
+  std::vector<std::size_t> variables;  ///< random parameters and features: all whose missing values are marked
+};
+
+std::vector<std::size_t> all_of(const SampleLayout& layout, std::initializer_list<const char*> slots) {
+  std::vector<std::size_t> columns;
+  for (const char* slot : slots)
+    if (const auto column = layout.find(slot)) columns.push_back(*column);
+  return columns.size() == slots.size() ? columns : std::vector<std::size_t>{};
+}
+
+Columns find_columns(const SampleLayout& layout) {
+  Columns c;
+  const auto color = all_of(layout, {"R", "G", "B"});
+  const auto film = all_of(layout, {"film.X", "film.Y"});
+  std::copy(color.begin(), color.end(), c.color);
+  std::copy(film.begin(), film.end(), c.film);
+  c.alpha = layout.find("A");
+  c.weight = layout.find("weight");
+  c.hit = layout.find("feature.hit");
+  c.normal = all_of(layout, {"feature.N.X", "feature.N.Y", "feature.N.Z"});
+  for (std::size_t i = 0; i < layout.size(); ++i)
+    if (is_feature_slot(layout.slots[i]) && group_of(layout.slots[i]) == "P") c.position.push_back(i);
+  for (std::size_t i = 0; i < layout.size(); ++i)
+    if (is_random_slot(layout.slots[i]) || is_feature_slot(layout.slots[i])) c.variables.push_back(i);
+  return c;
+}
+
+bool is_usable(const float* record, const Columns& columns) {
+  for (const std::size_t c : columns.color)
+    if (!std::isfinite(record[c])) return false;
+  return !columns.weight || (std::isfinite(record[*columns.weight]) && record[*columns.weight] >= 0);
+}
+
+/// Marks what cannot be used as missing, and says so.
+void clean_record(float* record, const Columns& columns, const SampleLayout& layout, bool clamp_negative,
+                  NoteBook& notes, std::size_t pixel) {
+  for (const std::size_t c : columns.color) {
+    if (!(record[c] < 0)) continue;
+    notes.add(clamp_negative ? "negative radiance values, set to 0" : "negative radiance values, kept", pixel);
+    if (clamp_negative) record[c] = 0;
+  }
+  if (columns.alpha && !std::isfinite(record[*columns.alpha])) record[*columns.alpha] = 0;
+  for (const std::size_t c : columns.film)
+    if (!std::isfinite(record[c])) {
+      notes.add(fmt::format("missing values of {}", layout.slots[c]), pixel);
+      record[c] = missing;
+    }
+  for (const std::size_t c : columns.variables)
+    if (!(std::fabs(record[c]) <= largest_feature)) {
+      notes.add(fmt::format("missing values of {}", layout.slots[c]), pixel);
+      record[c] = missing;
+    }
+}
+
+/// Leaves out samples whose color or weight cannot be used, and cleans the others. The buffer shrinks in place.
+void clean(SampleBuffer& samples, const Columns& columns, const Settings& settings, NoteBook notes) {
+  const std::size_t stride = samples.layout.size();
+  std::uint32_t kept = 0;
+  for (std::size_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel) {
+    const std::uint32_t begin = std::exchange(samples.first_sample[pixel], kept);
+    for (std::uint32_t sample = begin; sample < samples.first_sample[pixel + 1]; ++sample) {
+      float* record = samples.record(sample);
+      if (!is_usable(record, columns)) {
+        notes.add("samples left out: R, G or B not finite, or weight not a number from 0 up", pixel);
+        continue;
+      }
+      clean_record(record, columns, samples.layout, settings.clamp_negative, notes, pixel);
+      std::copy(record, record + stride, samples.record(kept++));
+    }
+  }
+  samples.first_sample.back() = kept;
+  samples.values.resize(kept * stride);
+}
+
+/// The power of two that brings the brightest value to [2^40, 2^41); 1 for a black frame.
+float radiance_scale(const SampleBuffer& samples, const Columns& columns) {
+  float brightest = 0;
+  for (std::size_t i = 0; i < samples.sample_count(); ++i)
+    for (const std::size_t c : columns.color) brightest = std::max(brightest, std::fabs(samples.record(i)[c]));
+  // The scale itself must be a normal float whose inverse is one too, also for subnormal radiance.
+  return brightest > 0 ? std::ldexp(1.0F, std::clamp(brightest_exponent - std::ilogb(brightest), -126, 126)) : 1.0F;
+}
+
+bool is_hit(const float* record, const Columns& columns) {
+  if (columns.hit) return record[*columns.hit] != 0;
+  const auto is_zero = [&](std::size_t c) { return record[c] == 0; };
+  return columns.normal.empty() || !std::all_of(columns.normal.begin(), columns.normal.end(), is_zero);
+}
+
+/// The diagonal of the box around all first-hit world positions, missed rays left out; 0 without positions.
+float position_diagonal(const SampleBuffer& samples, const Columns& columns) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> low(columns.position.size(), infinity), high(columns.position.size(), -infinity);
+  for (std::size_t i = 0; i < samples.sample_count(); ++i) {
+    const float* record = samples.record(i);
+    const auto is_missing = [&](std::size_t c) { return std::isnan(record[c]); };
+    if (!is_hit(record, columns) || std::any_of(columns.position.begin(), columns.position.end(), is_missing)) continue;
+    for (std::size_t k = 0; k < low.size(); ++k) {
+      low[k] = std::min<double>(low[k], record[columns.position[k]]);
+      high[k] = std::max<double>(high[k], record[columns.position[k]]);
+    }
+  }
+  double square = 0;
+  for (std::size_t k = 0; k < low.size(); ++k)
+    square += high[k] >= low[k] ? (high[k] - low[k]) * (high[k] - low[k]) : 0;
+  return static_cast<float>(std::sqrt(square));
+}
+
+float value_of(const float* record, const Source& source, float scale) {
+  const float value = record[source.column];
+  if (source.kind == Source::color) return value * scale;
+  return source.kind == Source::fraction ? value - std::floor(value) : value;
+}
+
+bool is_constant(const SampleBuffer& samples, const Source& source) {
+  float first = missing;
+  for (std::size_t i = 0; i < samples.sample_count(); ++i) {
+    const float value = value_of(samples.record(i), source, 1);
+    if (std::isnan(first)) first = value;
+    if (value < first || value > first) return false;
+  }
+  return true;
+}
+
+Source source_of(const SampleLayout& layout, const std::string& slot) {
+  if (slot == "pixel.X") return {Source::fraction, *layout.find("film.X")};
+  if (slot == "pixel.Y") return {Source::fraction, *layout.find("film.Y")};
+  return {Source::plain, *layout.find(slot)};
+}
+
+/// "lens.U" of "random.lens.U".
+std::string short_name(const std::string& slot) {
+  return is_random_slot(slot) || is_feature_slot(slot) ? slot.substr(slot.find('.') + 1) : slot;
+}
+
+/// The selected slots that vary, as sources; their names go to `names`, the names of the others to `dropped`.
+void keep_varying(const SampleBuffer& samples, const std::vector<std::string>& slots, std::vector<Source>& sources,
+                  std::vector<std::string>& names, std::vector<std::string>& dropped) {
+  for (const std::string& slot : slots) {
+    const Source source = source_of(samples.layout, slot);
+    const bool constant = is_constant(samples, source);
+    (constant ? dropped : names).push_back(short_name(slot));
+    if (!constant) sources.push_back(source);
+  }
+}
+
+/// What is averaged beside the color: alpha where the file has it, all features where they are wanted.
+std::vector<Source> carried_sources(const SampleLayout& layout, const Columns& columns, const Settings& settings,
+                                    std::vector<std::string>& names) {
+  std::vector<Source> sources;
+  names = {"R", "G", "B"};
+  for (const std::size_t c : columns.color) sources.push_back({Source::color, c});
+  if (columns.alpha) {
+    sources.push_back({Source::plain, *columns.alpha});
+    names.push_back("A");
+  }
+  for (std::size_t c = 0; settings.filter_features && c < layout.size(); ++c) {
+    if (!is_feature_slot(layout.slots[c])) continue;
+    sources.push_back({Source::plain, c});
+    names.push_back(short_name(layout.slots[c]));
+  }
+  return sources;
+}
+
+std::vector<float> carried_values(const SampleBuffer& samples, const std::vector<Source>& sources, float scale) {
+  std::vector<float> values;
+  values.reserve(samples.sample_count() * sources.size());
+  for (std::size_t i = 0; i < samples.sample_count(); ++i)
+    for (const Source& source : sources) {
+      const float value = value_of(samples.record(i), source, scale);
+      values.push_back(std::isnan(value) ? 0.0F : value);  // a missing feature has nothing to average
+    }
+  return values;
+}
+
+std::vector<float> sample_weights(const SampleBuffer& samples, const Columns& columns) {
+  std::vector<float> weights;
+  for (std::size_t i = 0; columns.weight && i < samples.sample_count(); ++i)
+    weights.push_back(samples.record(i)[*columns.weight]);
+  return weights;
+}
+
+/// Records of `sources` in the place of the buffer's own where they are not longer; its values are gone afterwards.
+std::vector<float> repack(SampleBuffer& samples, const std::vector<Source>& sources, float scale) {
+  std::vector<float> longer;
+  const bool in_place = sources.size() <= samples.layout.size();
+  if (!in_place) longer.resize(samples.sample_count() * sources.size());
+  std::vector<float>& target = in_place ? samples.values : longer;
+  std::vector<float> record(samples.layout.size());
+  for (std::size_t i = 0; i < samples.sample_count(); ++i) {
+    std::copy_n(samples.record(i), record.size(), record.begin());
+    for (std::size_t v = 0; v < sources.size(); ++v)
+      target[i * sources.size() + v] = value_of(record.data(), sources[v], scale);
+  }
+  target.resize(samples.sample_count() * sources.size());
+  return std::move(target);
+}
+
+/// The crop in frame coordinates; the whole frame without one.
+Window wanted_region(const Window& data_window, const std::optional<Window>& crop) {
+  const Window c = crop.value_or(data_window);
+  const Window region{c.x - data_window.x, c.y - data_window.y, c.width, c.height};
+  const bool inside = region.x >= 0 && region.y >= 0 && c.width > 0 && c.height > 0 &&
+                      region.x <= data_window.width - c.width && region.y <= data_window.height - c.height;
+  if (inside) return region;
+  throw Error(ErrorKind::usage,
+              fmt::format("crop {}x{}+{}+{} is not inside the data window {}x{}+{}+{}", c.width, c.height, c.x, c.y,
+                          data_window.width, data_window.height, data_window.x, data_window.y));
+}
+
+}  // namespace
+
+std::uint32_t most_samples(const std::vector<std::uint32_t>& first_sample) {
+  std::uint32_t most = 0;
+  for (std::size_t p = 0; p + 1 < first_sample.size(); ++p)
+    most = std::max(most, first_sample[p + 1] - first_sample[p]);
+  return most;
+}
+
+PreparedFrame prepare(SampleBuffer samples, const Settings& settings) {
+  const Columns columns = find_columns(samples.layout);
+  const Selection selection = select_channels(samples.layout, settings);
+  PreparedFrame result;
+  result.facts.crop = wanted_region(samples.data_window, settings.crop);
+  clean(samples, columns, settings, NoteBook(samples.data_window, result.notes));
+  result.radiance_scale = radiance_scale(samples, columns);
+  result.facts.position_diagonal = position_diagonal(samples, columns);
+
+  std::vector<Source> variables;
+  for (const std::size_t c : columns.color) variables.push_back({Source::color, c});
+  for (const std::size_t c : columns.film) variables.push_back({Source::plain, c});
+  keep_varying(samples, selection.random, variables, result.facts.variables.random_names, result.dropped);
+  keep_varying(samples, selection.features, variables, result.facts.variables.feature_names, result.dropped);
+  const auto carried = carried_sources(samples.layout, columns, settings, result.carried_names);
+
+  Frame& frame = result.frame;
+  frame.width = result.facts.width = samples.data_window.width;
+  frame.height = result.facts.height = samples.data_window.height;
+  frame.variables = variables.size();
+  result.facts.carried = carried.size();
+  result.colors = carried_values(samples, carried, result.radiance_scale);
+  frame.weights = sample_weights(samples, columns);
+  frame.records = repack(samples, variables, result.radiance_scale);
+  frame.first_sample = std::move(samples.first_sample);
+  result.facts.max_samples_per_pixel = most_samples(frame.first_sample);
+  return result;
+}
+
+}  // namespace rpf

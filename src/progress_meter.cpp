@@ -1,0 +1,45 @@
+#include "progress_meter.h"
+
+#include <algorithm>
+
+#include "rpf/error.h"
+
+namespace rpf {
+namespace {
+
+/// The fixed cost of a pixel (histograms of all pairs) in units of a neighbor's cost.
+constexpr double fixed_cost = 100;
+
+}  // namespace
+
+std::size_t tile_pixels(std::uint32_t neighbors, int threads) {
+  // A neighbor costs about 0.5 microseconds in the scalar reference.
+  constexpr double neighbors_per_tile = 1e6;
+  return static_cast<std::size_t>(std::max(1.0, threads * neighbors_per_tile / (neighbors + fixed_cost)));
+}
+
+ProgressMeter::ProgressMeter(const Plan& plan, const Control& control)
+    : control_(control), passes_(static_cast<int>(plan.passes.size())) {
+  for (const PassPlan& pass : plan.passes) {
+    pixel_cost_.push_back(fixed_cost + pass.max_neighbors);
+    total_ += pixel_cost_.back() * static_cast<double>(pass.region.pixel_count());
+  }
+}
+
+double ProgressMeter::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void ProgressMeter::add(int pass, std::size_t pixels) {
+  done_ += pixel_cost_[static_cast<std::size_t>(pass)] * static_cast<double>(pixels);
+  if (!control_.progress) return;
+  Progress progress;
+  progress.pass = pass;
+  progress.passes = passes_;
+  progress.fraction = std::min(done_ / total_, 1.0);
+  progress.seconds = seconds();
+  progress.seconds_left = progress.fraction > 0.01 ? progress.seconds * (1 / progress.fraction - 1) : -1;
+  if (!control_.progress(progress)) throw Error(ErrorKind::cancelled, "cancelled; nothing was written");
+}
+
+}  // namespace rpf

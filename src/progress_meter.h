@@ -1,0 +1,30 @@
+// How far a run is, how long it will take, and whether it shall stop.
+#pragma once
+
+#include <chrono>
+
+#include "plan.h"
+#include "rpf/filter.h"
+
+namespace rpf {
+
+/// Pixels for one call of the backend: about half a second of work at `neighbors` neighbors a pixel.
+std::size_t tile_pixels(std::uint32_t neighbors, int threads);
+
+class ProgressMeter {
+ public:
+  ProgressMeter(const Plan& plan, const Control& control);
+
+  /// Counts pixels of a pass as done and tells the caller. Throws Error(cancelled) where the caller wants to stop.
+  void add(int pass, std::size_t pixels);
+  double seconds() const;
+
+ private:
+  const Control& control_;
+  int passes_ = 0;
+  std::vector<double> pixel_cost_;  ///< [pass] relative
+  double total_ = 0, done_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace rpf

@@ -1,0 +1,50 @@
+#include "provenance.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rpf/version.h"
+
+namespace rpf {
+namespace {
+
+std::string list(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, " ")); }
+
+std::string neighborhood_text(const Settings& s) {
+  std::string text = s.samples_factor              ? fmt::format("{} b^2", *s.samples_factor)
+                     : s.profile == Profile::paper ? "b^2 s / 2"
+                                                   : "b^2 / 2";
+  return s.max_samples > 0 ? text + fmt::format(", at most {}", s.max_samples) : text;
+}
+
+std::string choices_text(const Settings& s) {
+  return fmt::format(
+      "alpha-factor={} position-scale={} redraws={} reject-second-hit={} bias-correction={} clamp-negative={}",
+      s.alpha_factor, s.position_scale, s.redraws, s.reject_second_hit, s.bias_correction, s.clamp_negative);
+}
+
+}  // namespace
+
+Metadata provenance(Metadata input, const Settings& settings, const Report& report) {
+  Metadata m = std::move(input);
+  m.erase("rpf:format");
+  m.erase("rpf:version");
+  m["rpf:software"] = std::string("rpf ") + version();
+  m["rpf:backend"] = report.backend;
+  m["rpf:profile"] = std::string(settings.profile == Profile::paper ? "paper" : "thesis");
+  m["rpf:boxes"] = fmt::format("{}", fmt::join(settings.box_widths, ","));
+  m["rpf:neighborhood"] = neighborhood_text(settings);
+  m["rpf:noise"] = settings.noise;
+  m["rpf:bins"] = std::int32_t{settings.bins};
+  m["rpf:random"] = list(report.random);
+  m["rpf:features"] = list(report.features);
+  m["rpf:drawSeed"] = static_cast<std::int32_t>(settings.seed);
+  m["rpf:choices"] = choices_text(settings);
+  std::vector<std::string> notes;
+  for (const InputNote& note : report.notes)
+    notes.push_back(fmt::format("{}: {} (first at pixel {},{})", note.what, note.count, note.x, note.y));
+  if (!notes.empty()) m["rpf:notes"] = fmt::format("{}", fmt::join(notes, "; "));
+  return m;
+}
+
+}  // namespace rpf

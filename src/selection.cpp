@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "frame.h"
+#include "rpf/error.h"
+
+namespace rpf {
+namespace {
+
+constexpr const char* all_groups = "all";
+constexpr const char* inside_pixel = "pixel";
+
+using Groups = std::vector<std::string>;
+
+bool contains(const Groups& groups, const std::string& name) {
+  return std::find(groups.begin(), groups.end(), name) != groups.end();
+}
+
+Groups groups_of(const std::vector<std::string>& slots) {
+  Groups groups;
+  for (const std::string& slot : slots)
+    if (!contains(groups, group_of(slot))) groups.push_back(group_of(slot));
+  return groups;
+}
+
+template <typename Predicate>
+std::vector<std::string> slots_where(const SampleLayout& layout, Predicate predicate) {
+  std::vector<std::string> slots;
+  std::copy_if(layout.slots.begin(), layout.slots.end(), std::back_inserter(slots), predicate);
+  return slots;
+}
+
+/// The slots of the wanted groups, in the layout's order. `kind` is for the error text.
+std::vector<std::string> pick(const std::vector<std::string>& slots, const Groups& wanted, const char* kind) {
+  const Groups available = groups_of(slots);
+  for (const std::string& name : wanted)
+    if (name != all_groups && name != inside_pixel && !contains(available, name))
+      throw Error(ErrorKind::usage,
+                  fmt::format("{0} '{1}' is not among the samples' channels; {0}s there: {2}", kind, name,
+                              available.empty() ? "none" : fmt::format("{}", fmt::join(available, ", "))));
+  std::vector<std::string> picked;
+  for (const std::string& slot : slots)
+    if (contains(wanted, all_groups) || contains(wanted, group_of(slot))) picked.push_back(slot);
+  return picked;
+}
+
+/// Section 1: lens, time and light where there are any; the thesis adds the position inside the pixel.
+Groups default_random(const Groups& available, Profile profile) {
+  Groups wanted;
+  for (const char* name : {"lens", "time", "light"})
+    if (contains(available, name)) wanted.push_back(name);
+  if (profile == Profile::thesis) wanted.push_back(inside_pixel);
+  return wanted;
+}
+
+}  // namespace
+
+Selection select_channels(const SampleLayout& layout, const Settings& settings) {
+  const auto random = slots_where(layout, is_random_slot);
+  const auto features = slots_where(layout, is_feature_slot);
+  const Groups wanted = settings.random.value_or(default_random(groups_of(random), settings.profile));
+  Selection selection;
+  selection.random = pick(random, wanted, "random parameter");
+  if (contains(wanted, inside_pixel)) {
+    selection.random.push_back("pixel.X");
+    selection.random.push_back("pixel.Y");
+  }
+  if (contains(settings.features.value_or(Groups{}), inside_pixel))
+    throw Error(ErrorKind::usage,
+                "feature 'pixel' is not a feature; --random pixel models the position inside the pixel");
+  selection.features = pick(features, settings.features.value_or(Groups{all_groups}), "feature");
+  return selection;
+}
+
+}  // namespace rpf

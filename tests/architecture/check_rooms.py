@@ -1,0 +1,91 @@
+"""Holds the house together: who may include whom, sizes, and the README's code. Usage: check_rooms.py PROJECT"""
+import re
+import sys
+from pathlib import Path
+
+PROJECT = Path(sys.argv[1])
+
+# A room may include what stands behind it, and itself. Dependencies point downwards only.
+API = {"include"}
+ROOMS = {
+    "kernels": set(),
+    "include": set(),
+    "src": API | {"kernels"},                 # the driver: no device, no file format
+    "src/cpu": API | {"src", "kernels"},
+    "src/io": API,
+    "src/metrics": API,
+    "src/cli": API,
+    "examples": API,
+    "bench": API | {"src", "src/cpu"},
+    "tests": API | {"src", "src/cpu", "src/io", "kernels"},
+}
+# Third-party headers, each in one room only (beside the tests).
+LIBRARIES = {
+    "OpenEXR/": {"src/io"}, "Imf": {"src/io"}, "OpenImageIO/": {"src/io"}, "CL/": {"src/opencl"}, "CLI/": {"src/cli"},
+    "tbb/": {"src/cpu"}, "fmt/": {"src", "src/io", "src/metrics", "src/cli"}, "nlohmann/": set(), "benchmark/": {"bench"},
+}
+# The one place that knows all backends.
+EXCEPTIONS = {("src/backends.cpp", "src/cpu")}
+LONGEST_FILE = 400
+
+failures = []
+
+
+def room_of(path):
+    """The deepest room that a file lies in."""
+    parts = path.relative_to(PROJECT).parts[:-1]
+    rooms = ["/".join(parts[:n]) for n in range(len(parts), 0, -1)]
+    return next((room for room in rooms if room in ROOMS), None)
+
+
+def included_room(name, file):
+    """The room of a project header, None for other headers."""
+    for folder in (PROJECT / "include", PROJECT / "src", PROJECT / "kernels", PROJECT / "tests" / "unit", file.parent):
+        if (folder / name).is_file():
+            return room_of(folder / name)
+    return None
+
+
+def check_include(file, name):
+    room, place = room_of(file), str(file.relative_to(PROJECT))
+    target = included_room(name, file)
+    if target is not None:
+        if target != room and target not in ROOMS[room] and (place, target) not in EXCEPTIONS:
+            failures.append(f"{place} includes {name}: {room} must not depend on {target}")
+        return
+    for prefix, rooms in LIBRARIES.items():
+        if name.startswith(prefix) and room not in rooms and room != "tests":
+            failures.append(f"{place} includes {name}: allowed in {sorted(rooms)} only")
+
+
+def sources():
+    for folder in ("include", "kernels", "src", "tests", "bench", "examples"):
+        for file in sorted((PROJECT / folder).rglob("*")):
+            if file.suffix in (".h", ".cpp", ".cl", ".py"):
+                yield file
+
+
+def check_readme():
+    """The README's C++ is examples/filter_file.cpp, which the build compiles."""
+    readme = (PROJECT / "README.md").read_text()
+    example = (PROJECT / "examples" / "filter_file.cpp").read_text()
+    for block in re.findall(r"```cpp\n(.*?)```", readme, re.S):
+        if block not in example:
+            failures.append("README.md: its C++ is not examples/filter_file.cpp")
+
+
+def main():
+    for file in sources():
+        text = file.read_text()
+        if len(text.splitlines()) > LONGEST_FILE:
+            failures.append(f"{file.relative_to(PROJECT)}: {len(text.splitlines())} lines, at most {LONGEST_FILE} are wanted")
+        if file.suffix == ".py":
+            continue
+        for name in re.findall(r'^\s*#include [<"]([^>"]+)[>"]', text, re.M):
+            check_include(file, name)
+    check_readme()
+    print("\n".join(failures) or "all arrows point downwards")
+    return 1 if failures else 0
+
+
+sys.exit(main())

@@ -1,0 +1,170 @@
+"""The command as a user runs it: exit codes, texts, files. Usage: command_test.py RPF PROJECT"""
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+RPF, PROJECT = sys.argv[1], Path(sys.argv[2]).resolve()
+EXAMPLE = PROJECT / "examples" / "dof-spheres.samples.exr"
+REFERENCE = PROJECT / "examples" / "dof-spheres.reference.exr"
+SHARED = PROJECT.parent / "shared" / "data"
+QUICK = ["--boxes", "5,3", "--crop", "16x12+20+20"]
+
+
+def run(*arguments, env=None, **keywords):
+    environment = {**os.environ, **(env or {})}
+    return subprocess.run([RPF, *map(str, arguments)], capture_output=True, text=True, env=environment, **keywords)
+
+
+def error_of(run_):
+    """What compare printed for its first image: relMSE, MSE, energy."""
+    return [float(word) for word in run_.stdout.splitlines()[1].split()[:3]]
+
+
+class CommandTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="rpf test ü "))  # a blank and UTF-8 on purpose
+        self.output = self.folder / "out.exr"
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def expect(self, result, code, *texts):
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        for text in texts:
+            self.assertIn(text, result.stdout + result.stderr)
+
+    def expect_nothing_written(self):
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    # ---- the main job
+
+    def test_filters_the_example_and_lowers_its_error(self):
+        before, after = self.folder / "before.exr", self.output
+        self.expect(run(EXAMPLE, "-o", before, "--boxes", "none"), 0)
+        self.expect(run(EXAMPLE, "-o", after, "-v", "--profile", "paper", "--boxes", "21,11,5", "--samples-factor", "1",
+                        "--noise", "0.002"), 0, "acceptance", "cpu")
+        error_before, error_after = (error_of(run("compare", image, REFERENCE))[0] for image in (before, after))
+        self.assertLess(error_after, error_before / 4)
+        energy = error_of(run("compare", after, before))[2]
+        self.assertAlmostEqual(energy, 1, delta=0.05)
+
+    def test_two_runs_and_threads_write_the_same_bytes(self):
+        images = []
+        for threads in (1, 2, 2):
+            self.expect(run(EXAMPLE, "-o", self.output, "-t", threads, "-q", *QUICK), 0)
+            images.append(self.output.read_bytes())
+        self.assertEqual(images[0], images[1])
+        self.assertEqual(images[1], images[2])
+
+    def test_quiet_says_nothing_and_progress_says_how_far(self):
+        quiet = run(EXAMPLE, "-o", self.output, "-q", *QUICK)
+        self.assertEqual(quiet.stdout + quiet.stderr, "")
+        self.expect(run(EXAMPLE, "-o", self.output, "--progress", "always", *QUICK), 0, "pass 1/2", "100 %")
+
+    def test_writes_png_and_features(self):
+        png, layers, folder = self.folder / "a.png", self.folder / "layers.exr", self.folder / "aov"
+        self.expect(run(EXAMPLE, "-o", png, "--aov", layers, *QUICK), 0)
+        self.assertEqual(png.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertTrue(layers.exists())
+        self.expect(run(EXAMPLE, "-o", self.output, "--aov", f"{folder}/", *QUICK), 0)
+        self.assertEqual(sorted(p.name for p in folder.iterdir()), ["N.exr", "P.exr", "albedo.exr"])
+
+    def test_records_how_an_image_was_made(self):
+        self.expect(run(EXAMPLE, "-o", self.output, "--seed", "7", *QUICK), 0)
+        header = self.output.read_bytes()[:4096]
+        for name in (b"rpf:software", b"rpf:profile", b"rpf:boxes", b"rpf:noise", b"rpf:drawSeed"):
+            self.assertIn(name, header)
+
+    def test_info_names_slots_and_memory(self):
+        self.expect(run("info", EXAMPLE), 0, "random.lens.U", "feature.albedo.R", "predicted peak memory", "4 to 4 a pixel")
+
+    def test_dry_run_writes_nothing(self):
+        self.expect(run(EXAMPLE, "-o", self.output, "--dry-run"), 0, "peak memory")
+        self.expect_nothing_written()
+
+    def test_version_and_help(self):
+        self.assertRegex(run("--version").stdout, r"^rpf \d+\.\d+\.\d+\n$")
+        self.expect(run("--help"), 0, "--profile", "--boxes", "Examples", "Exit codes")
+
+    def test_environment_sets_defaults_and_options_beat_it(self):
+        self.expect(run(EXAMPLE, "--dry-run", env={"RPF_NUM_THREADS": "3"}), 0, "3 threads")
+        self.expect(run(EXAMPLE, "--dry-run", env={"SLURM_CPUS_PER_TASK": "5"}), 0, "5 threads")
+        self.expect(run(EXAMPLE, "--dry-run", "-t", "2", env={"RPF_NUM_THREADS": "3"}), 0, "2 threads")
+        self.expect(run(EXAMPLE, "--dry-run", env={"RPF_BACKEND": "abacus"}), 2, "abacus")
+
+    # ---- what cannot be
+
+    def test_usage_errors(self):
+        for arguments, text in (([], "no input"), ([EXAMPLE], "no output"), ([EXAMPLE, "-o", self.output, "--boxes", "8"], "box width 8"),
+                                ([EXAMPLE, "-o", self.output, "--boxes", "7,x"], "--boxes 7,x"),
+                                ([EXAMPLE, "-o", self.output, "--features", "N,Q"], "feature 'Q'"),
+                                ([EXAMPLE, "-o", self.output, "--random", "moon"], "random parameter 'moon'"),
+                                ([EXAMPLE, "-o", self.output, "--crop", "9x9"], "--crop 9x9"),
+                                ([EXAMPLE, "-o", self.output, "--crop", "9x9+9999+0"], "not inside"),
+                                ([EXAMPLE, "-o", self.output, "--map", "feature.N.X"], "SLOT=CHANNEL"),
+                                ([EXAMPLE, "-o", self.output, "--noise", "0"], "noise"), ([EXAMPLE, "--nonsense"], "nonsense"),
+                                ([EXAMPLE, "-o", self.output, "--backend", "abacus"], "abacus")):
+            with self.subTest(text=text):
+                self.expect(run(*arguments), 2, text)
+                self.expect_nothing_written()
+
+    def test_input_errors(self):
+        cut = self.folder / "cut.exr"
+        cut.write_bytes(EXAMPLE.read_bytes()[:100000])
+        text = self.folder / "text.exr"
+        text.write_text("not an image")
+        for file, expected in (("missing.exr", "missing.exr"), (cut, "cut.exr"), (text, "text.exr"), (REFERENCE, "deep"), (self.folder, "test")):
+            with self.subTest(file=file):
+                self.expect(run(file, "-o", self.output), 3, expected)
+                self.assertFalse(self.output.exists())
+
+    def test_output_errors(self):
+        nowhere = self.folder / "nowhere" / "a.exr"
+        self.expect(run(EXAMPLE, "-o", nowhere, *QUICK), 4, "nowhere")
+        self.expect(run(EXAMPLE, "-o", self.folder / "a.xyz", *QUICK), 4, "xyz", "exr")
+        folder = self.folder / "folder.exr"
+        folder.mkdir()
+        self.expect(run(EXAMPLE, "-o", folder, *QUICK), 4, "folder.exr")
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["folder.exr"])
+
+    def test_memory_limit(self):
+        self.expect(run(EXAMPLE, "-o", self.output, "--max-memory", "1"), 6, "the limit is 1 MB")
+        self.expect_nothing_written()
+
+    # ---- stopping
+
+    def test_signals_stop_within_two_seconds_and_leave_nothing(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            process = subprocess.Popen([RPF, EXAMPLE, "-o", self.output, "--boxes", "55,55,55,55", "--samples-factor", "8"],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            time.sleep(1.0)
+            start = time.monotonic()
+            process.send_signal(number)
+            process.communicate(timeout=30)
+            self.assertLess(time.monotonic() - start, 2.0)
+            self.assertIn(process.returncode, (128 + number, -number))
+            self.expect_nothing_written()
+
+    def test_closed_standard_output_is_no_reason_to_lose_the_image(self):
+        subprocess.run(f"'{RPF}' '{EXAMPLE}' -o '{self.output}' {' '.join(QUICK)} >&- 2>&-", shell=True, check=False)
+        self.assertTrue(self.output.exists())
+
+    # ---- the real files, where they are
+
+    def test_real_files_can_be_read(self):
+        files = sorted(SHARED.glob("*.samples.exr")) if SHARED.is_dir() else []
+        if not files:
+            self.skipTest("skipped: ../shared/data is not here")
+        for file in files:
+            with self.subTest(file=file.name):
+                self.expect(run(file, "-o", self.output, "--boxes", "3", "--crop", "8x8+100+100"), 0)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

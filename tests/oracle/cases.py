@@ -1,0 +1,179 @@
+"""The small scenes on which the C++ code is compared with the oracle.
+
+Each looks like a thin-lens picture of two surfaces: the lens and time move the boundary between them, the light sample
+decides on the shadow. So pixels are pure or mixed, acceptance is partial, and W, alpha and beta lie between 0 and 1.
+Everything is deterministic, and every value is a float32.
+"""
+import numpy as np
+
+SETTINGS = {"profile": "thesis", "boxes": [9, 7, 5, 3], "noise": 0.02, "bins": 7, "seed": 1,
+            "random": ["lens", "time"], "features": ["N", "P", "albedo"], "samples_factor": None, "max_samples": None,
+            "position_scale": 20, "reject_second_hit": False, "bias_correction": False, "alpha_factor": 2, "redraws": 8}
+
+
+def uniform(rng, n):
+    """n numbers in [0,1) that stay below 1 as float32, and below x + 1 when added to a pixel x < 256."""
+    return np.floor(rng.random(n) * 65536) / 65536
+
+
+def unit(vectors):
+    """The vectors [S, 3] at length 1."""
+    return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+
+
+def components(name, letters, table):
+    """{name.letter: column} of a table [S, len(letters)]."""
+    return {f"{name}.{letter}": table[:, i] for i, letter in enumerate(letters)}
+
+
+def geometry(x, y, front, size):
+    """Normal [S, 3], world position [S, 3] and albedo [S, 3] of the visible point at film position x, y."""
+    depth = np.where(front, 2.0 + 0.02 * y, 5.0 + 0.03 * x)
+    P = np.stack([(x - size[0] / 2) * 0.05 * depth, (y - size[1] / 2) * 0.05 * depth, depth], axis=1)
+    bent = np.stack([0.3 * np.sin(0.6 * x), 0.2 * np.cos(0.7 * y), np.ones(len(x))], axis=1)
+    flat = np.stack([0.02 * y, np.ones(len(x)), 0.2 + 0.01 * x], axis=1)
+    N = unit(np.where(front[:, None], bent, flat))
+    texture = 0.85 + 0.15 * np.sin(1.3 * x + 0.4 * y)
+    albedo = np.where(front[:, None], [0.8, 0.35, 0.2], [0.2, 0.45, 0.7]) * texture[:, None]
+    return N, P, albedo
+
+
+def scene(seed, width, height, counts):
+    """The channels {name: [S]} of the two-surface scene."""
+    rng = np.random.Generator(np.random.PCG64(seed))
+    pixel = np.repeat(np.arange(width * height), counts)
+    x, y, lens_u, lens_v, time, light_u, light_v = (uniform(rng, len(pixel)) for _ in range(7))
+    x, y = x + pixel % width, y + pixel // width
+    edge = 0.5 * width + 3.0 * (lens_u - 0.5) + 1.5 * (time - 0.5) + 0.4 * (y - height / 2)
+    N, P, albedo = geometry(x, y, x < edge, (width, height))
+    lit = light_u + 0.3 * light_v < 0.35 + 0.9 * y / height
+    glow = (0.05 + lit * (0.6 + 0.05 * light_v))[:, None] * np.array([1.0, 0.95, 0.9])
+    direction = unit(np.stack([lens_u - 0.5 + 0.1 * x, light_v - 0.5, 0.3 + 0 * x], axis=1))
+    channels = dict(zip("RGB", (albedo * glow + 0.02 * lens_v[:, None]).T))
+    channels.update({"film.X": x, "film.Y": y, "random.lens.U": lens_u, "random.lens.V": lens_v, "random.time": time,
+                     "random.light.U": light_u, "random.light.V": light_v})
+    channels.update(components("feature.N", "XYZ", N) | components("feature.P", "XYZ", P)
+                    | components("feature.albedo", "RGB", albedo) | components("feature.N2", "XYZ", direction)
+                    | components("feature.P2", "XYZ", P + 2.0 * direction))
+    return channels
+
+
+def as_case(width, height, counts, channels, settings):
+    """The case dict, as rpf_trace reads it; NaN becomes null."""
+    unknown = set(settings) - set(SETTINGS)
+    assert not unknown, unknown
+    single = {name: np.asarray(values, dtype=np.float32) for name, values in channels.items()}
+    listed = {name: [None if np.isnan(v) else float(v) for v in values] for name, values in single.items()}
+    return {"width": width, "height": height, "counts": [int(c) for c in counts], "channels": listed,
+            "settings": {**SETTINGS, **settings}}
+
+
+def simple(seed, width=11, height=8, spp=4, change=None, **settings):
+    """A case with spp samples in every pixel (or spp = array of counts); change(channels, rng, counts) edits it."""
+    counts = np.broadcast_to(spp, width * height)
+    channels = scene(seed, width, height, counts)
+    if change:
+        change(channels, np.random.Generator(np.random.PCG64(seed + 1000)), counts)
+    return as_case(width, height, counts, channels, {"seed": seed, **settings})
+
+
+def varying(seed, **settings):
+    """0 to 9 samples a pixel, with 0, 1 and 2 certain to occur."""
+    counts = np.random.Generator(np.random.PCG64(seed)).integers(0, 10, 88)
+    counts[[0, 30, 40]], counts[[1, 31, 41]], counts[[2, 32, 42]] = 0, 1, 2
+    return simple(seed, spp=counts, **settings)
+
+
+def some(rng, n, part):
+    """A random mask [n] that is true for about this part."""
+    return rng.random(n) < part
+
+
+def lose_values(channels, rng, counts):
+    """NaN at single values, in all of a pixel's N.X, in the first sample of many pixels, and in a whole channel."""
+    samples = len(channels["R"])
+    first = (np.cumsum(counts) - counts).astype(int)
+    for name in ("feature.N.X", "feature.P.Y", "feature.albedo.G", "random.lens.U", "random.time", "film.X", "film.Y"):
+        channels[name] = np.where(some(rng, samples, 0.05), np.nan, channels[name])
+    for name in ("feature.P.X", "random.lens.V", "film.X", "feature.albedo.R"):
+        channels[name][first[::3]] = np.nan
+    for pixel in (3, 40, 41):
+        channels["feature.N.X"][first[pixel]:first[pixel] + counts[pixel]] = np.nan
+    channels["feature.uv.U"] = np.full(samples, np.nan)
+    channels["feature.uv.V"] = np.where(some(rng, samples, 0.5), np.nan, 0.25)     # constant where not missing
+
+
+def miss_rays(channels, rng, counts):
+    """The upper right of the picture sees no surface: N = P = 0, and feature.hit tells it."""
+    missed = channels["film.X"] - 1.2 * channels["film.Y"] + 2 * channels["random.lens.U"] > 0.6 * len(counts) ** 0.5
+    for name in [c for c in channels if c.startswith(("feature.N", "feature.P", "feature.albedo"))]:
+        channels[name] = np.where(missed, 0.0, channels[name])
+    channels["feature.hit"] = np.where(missed, 0.0, 1.0)
+
+
+def miss_rays_unmarked(channels, rng, counts):
+    """Missed rays that only N = (0,0,0) tells; P is far away there, which must not enter the bounding box."""
+    miss_rays(channels, rng, counts)
+    missed = channels.pop("feature.hit") == 0
+    channels["feature.P.Z"] = np.where(missed, -1000.0, channels["feature.P.Z"])
+
+
+def weigh_samples(channels, rng, counts):
+    """A weight for each sample, with zeros, and one pixel of zeros only."""
+    weight = np.where(some(rng, len(channels["R"]), 0.1), 0.0, 0.25 + 1.75 * uniform(rng, len(channels["R"])))
+    weight[:counts[0]] = 0.0
+    channels["weight"] = weight
+
+
+def add_fireflies(channels, rng, counts):
+    """A few samples of 1e4."""
+    for sample in rng.choice(len(channels["R"]), 5, replace=False):
+        for name, factor in zip("RGB", (1.0, 0.9, 0.6)):
+            channels[name][sample] = 1e4 * factor
+
+
+def move_world(channels, rng, counts):
+    """World positions far from the origin."""
+    for axis in "XYZ":
+        channels["feature.P." + axis] = channels["feature.P." + axis] + 4096.0
+
+
+def still_scene(channels, rng, counts):
+    """No motion, and one flat normal component: what is constant must be dropped."""
+    channels["random.time"] = np.full(len(channels["R"]), 0.5)
+    channels["feature.N.Y"] = np.zeros(len(channels["R"]))
+
+
+CASES = {
+    "spp1_thesis": lambda: simple(11, spp=1, position_scale=1),
+    "spp1_paper": lambda: simple(12, spp=1, position_scale=1, profile="paper", change=still_scene),
+    "spp4_thesis": lambda: simple(13, random=["light", "pixel"]),
+    "spp4_paper": lambda: simple(14, profile="paper"),
+    "spp8_thesis": lambda: simple(15, 9, 7, spp=8),
+    "spp8_paper": lambda: simple(16, 9, 7, spp=8, profile="paper", random=["lens"]),
+    "spp_varying_thesis": lambda: varying(17, random=["lens"]),
+    "spp_varying_paper": lambda: varying(18, profile="paper", random=["light"]),
+    "box55": lambda: simple(19, 9, 7, boxes=[55]),
+    "bins5": lambda: simple(20, bins=5, profile="paper"),
+    "bins9": lambda: simple(21, bins=9),
+    "second_hit_reject": lambda: simple(22, features=["N", "P", "albedo", "N2", "P2"], reject_second_hit=True),
+    "second_hit_keep": lambda: simple(22, features=["N", "P", "N2", "P2"], random=["light"]),
+    "missing_values": lambda: simple(23, profile="paper", change=lose_values, features=["N", "P", "albedo", "uv"]),
+    "missed_rays": lambda: simple(24, change=miss_rays, random=["lens"]),
+    "missed_rays_unmarked": lambda: simple(25, change=miss_rays_unmarked, position_scale=10),
+    "bias_correction": lambda: simple(26, 9, 7, spp=8, profile="paper", bias_correction=True),
+    "alpha_factor_5_2": lambda: simple(27, spp=8, alpha_factor=5.2, random=["time"], noise=0.002),
+    "samples_factor_2": lambda: simple(28, samples_factor=2.0, redraws=3, noise=0.002),
+    "max_samples": lambda: simple(29, profile="paper", max_samples=50, redraws=0,
+                                  random=["lens", "time", "light", "pixel"]),
+    "sample_weight": lambda: simple(30, change=weigh_samples, features=["N", "P"]),
+    "hdr_radiance": lambda: simple(31, profile="paper", change=add_fireflies),
+    "world_offset": lambda: simple(32, change=move_world),
+    "one_pixel": lambda: simple(33, 1, 1, spp=5, profile="paper", boxes=[5, 3]),
+    "one_row": lambda: simple(34, 13, 1, profile="paper", random=["lens", "light"]),
+}
+
+
+def make(name):
+    """The case of this name."""
+    return CASES[name]()

@@ -1,0 +1,35 @@
+"""Every tolerance of the comparison with the oracle, each with its reason. What is not listed is compared exactly."""
+
+# The largest deviation of each kind that float32 and the table of n ln n explain.
+TOLERANCE = {
+    # part of the largest magnitude among the averaged values: the unshifted mean is one float32, 6e-8 of it, and sums
+    # of up to a few hundred terms add a few of these
+    "mean": 1e-6,
+    # part of the range of the values: sums are taken after subtracting one of them, so the range sets the rounding
+    "std": 1e-5,
+    # relative: H times a float32 standard deviation, or the diagonal of a box
+    "tolerance": 1e-5,
+    # relative: a candidate whose |f - m| is this near to the tolerance may be accepted or not; the trace decides
+    "near_tolerance": 1e-5,
+    # normalized values, absolute, and as part of the variable's largest normalized magnitude in the neighborhood
+    # (about half its range in standard deviations; mean and deviation are rounded relative to the range)
+    "normalized": 1e-5,
+    "normalized_relative": 2e-6,
+    # a normalized value as near to a bin edge as these two allow may fall on either side; the trace decides
+    # mutual information: 2 E ln 2 / (S N) from the integer table (see information_bound), and float32, relative
+    "information_relative": 1e-6,
+    # nats, absolute: what the integer table may cost at the largest neighborhood; keeps the bound above of use
+    "information_table": 1e-4,
+    # absolute: ratios and their affine functions in [0,1]; small sums amplify the error of the information
+    "fraction": 1e-3,
+    # relative to max(|value|, color_floor * mean radiance of the frame): the weights' exponents are multiples of the
+    # fractions above by up to a few hundred
+    "color": 1e-3,
+    "color_floor": 1e-3,
+    # an outlier decision may go either way when its distance from one standard deviation is within this part of the
+    # deviation, or this part of the value (float32 error of the filtered colors)
+    "outlier": 3e-6,
+    "outlier_value": 1e-6,
+    # standard deviations of chance; 6 happens once in 1e9
+    "draw_statistics": 6.0,
+}

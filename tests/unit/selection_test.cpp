@@ -1,0 +1,49 @@
+#include <gtest/gtest.h>
+
+#include "frame.h"
+#include "rpf/error.h"
+
+namespace rpf {
+namespace {
+
+using Slots = std::vector<std::string>;
+
+const SampleLayout layout{{"R", "G", "B", "film.X", "film.Y", "random.bsdf.U", "random.lens.U", "random.lens.V",
+                           "random.time", "feature.N.X", "feature.P.X", "feature.depth", "feature.hit"}};
+
+TEST(Selection, ModelsLensTimeAndLightByDefault) {
+  Settings settings;
+  settings.profile = Profile::paper;
+  EXPECT_EQ(select_channels(layout, settings).random, (Slots{"random.lens.U", "random.lens.V", "random.time"}));
+  settings.profile = Profile::thesis;
+  EXPECT_EQ(select_channels(layout, settings).random,
+            (Slots{"random.lens.U", "random.lens.V", "random.time", "pixel.X", "pixel.Y"}));
+  EXPECT_EQ(select_channels(layout, settings).features, (Slots{"feature.N.X", "feature.P.X", "feature.depth"}));
+}
+
+TEST(Selection, FollowsTheUser) {
+  Settings settings;
+  settings.random = Slots{"bsdf"};
+  settings.features = Slots{"P", "depth"};
+  EXPECT_EQ(select_channels(layout, settings).random, (Slots{"random.bsdf.U"}));
+  EXPECT_EQ(select_channels(layout, settings).features, (Slots{"feature.P.X", "feature.depth"}));
+  settings.random = Slots{"all", "pixel"};
+  settings.features = Slots{};
+  EXPECT_EQ(select_channels(layout, settings).random.size(), 6U);
+  EXPECT_TRUE(select_channels(layout, settings).features.empty());
+}
+
+TEST(Selection, NamesWhatIsThereWhenAGroupIsNot) {
+  Settings settings;
+  settings.features = Slots{"albedo"};
+  try {
+    select_channels(layout, settings);
+    FAIL() << "not refused";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::usage);
+    EXPECT_STREQ(e.what(), "feature 'albedo' is not among the samples' channels; features there: N, P, depth");
+  }
+}
+
+}  // namespace
+}  // namespace rpf

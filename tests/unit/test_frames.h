@@ -1,0 +1,51 @@
+// Small synthetic frames for the tests, the same on every machine.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rpf/samples.h"
+#include "rpf/settings.h"
+
+namespace rpf::test {
+
+/// Pseudo-random floats in [0, 1), exactly representable with 16 bits.
+class Dice {
+ public:
+  explicit Dice(std::uint32_t seed) : state_(seed) {}
+  float operator()() {
+    state_ = state_ * 1664525U + 1013904223U;
+    return static_cast<float>(state_ >> 16) / 65536.0F;
+  }
+
+ private:
+  std::uint32_t state_;
+};
+
+struct FrameOptions {
+  int width = 13, height = 9;
+  int samples = 4;  ///< a pixel; 0: varying from 0 to 5
+  std::uint32_t seed = 1;
+};
+
+/// Two surfaces at different depths with an edge that the lens moves, textured and noisy.
+/// Slots: R G B film.X film.Y random.lens.U random.lens.V random.time feature.N.X/Y/Z feature.P.X/Y/Z feature.albedo.R.
+SampleBuffer defocused_edge(const FrameOptions& options = {});
+
+/// Settings for small frames: box widths 9, 5, 3, one thread.
+Settings small_settings();
+
+/// Sets one channel of all samples.
+void fill(SampleBuffer& samples, const std::string& slot, float value);
+
+/// Multiplies R, G and B by a factor.
+void scale_radiance(SampleBuffer& samples, float factor);
+
+/// Adds a channel behind the others, with one value for all samples.
+void add_channel(SampleBuffer& samples, const std::string& slot, float value);
+
+/// The value of a channel.
+float& value_of(SampleBuffer& samples, std::size_t sample, const std::string& slot);
+
+}  // namespace rpf::test

@@ -1,0 +1,28 @@
+// Every tolerance of the C++ tests, with its reason. What is not listed is compared exactly.
+// (tests/oracle/tolerances of the Python comparison: see tests/oracle/compare.py.)
+#pragma once
+
+namespace rpf::test::tolerance {
+
+/// rpf_exp against long double. Measured over all floats: 0.982; 1 is the promise of kernels/numeric.h.
+constexpr double exp_ulps = 1.0;
+
+/// Entries of the offset table per offset against the exact Gaussian: each side is rounded to whole entries.
+constexpr double offset_entries = 0.5;
+/// ... and the center takes up what rounding left over on both sides, half an entry for each of up to 254 offsets.
+constexpr double center_entries = 127.0;
+
+/// Mutual information of small exact cases: the table's slack at N = 64 and S = 2^22 is 33 ln 2 / (2^22 * 64) = 9e-8,
+/// one float rounding of a value near 2 adds 1.2e-7.
+constexpr double information = 3e-7;
+
+/// A formula of a few float operations against the same in double: some roundings of 6e-8 each.
+constexpr double formula = 1e-6;
+
+/// The outlier step gives back the energy it took: relative error of one float mean and one addition a sample.
+constexpr double outlier_energy = 1e-6;
+
+/// The sum of a pixel's float mean against a double mean.
+constexpr double pixel_mean = 1e-6;
+
+}  // namespace rpf::test::tolerance
