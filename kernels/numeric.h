@@ -9,6 +9,7 @@
 //     A 16-wide vector register and a scalar loop give the same bits.
 #ifndef RPF_NUMERIC_H
 #define RPF_NUMERIC_H
+// NOLINTBEGIN(modernize-*, bugprone-macro-parentheses): this is OpenCL C too
 
 #ifdef __OPENCL_VERSION__
 #pragma OPENCL FP_CONTRACT OFF
@@ -117,4 +118,5 @@ RPF_INLINE rpf_words rpf_hash(uint x, uint y, uint z) {
 }  // namespace rpf::kernel
 #endif
 
+// NOLINTEND(modernize-*, bugprone-macro-parentheses)
 #endif

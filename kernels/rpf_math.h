@@ -2,6 +2,7 @@
 // "section n" and "(T n)" are the sections and equation numbers of docs/algorithm.md; T is Van Campenhout's thesis.
 #ifndef RPF_MATH_H
 #define RPF_MATH_H
+// NOLINTBEGIN(modernize-*): this is OpenCL C too
 
 #include "numeric.h"
 
@@ -130,4 +131,5 @@ RPF_INLINE int rpf_is_outlier(float value, float mean, float deviation) {
 }  // namespace rpf::kernel
 #endif
 
+// NOLINTEND(modernize-*)
 #endif

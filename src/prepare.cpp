@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "clean.h"
 #include "frame.h"
 #include "rpf/error.h"
 
@@ -12,10 +13,6 @@ namespace rpf {
 namespace {
 
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
-
-/// Larger feature values count as missing: their squares would not survive a sum. Renderers write such values for "no
-/// hit".
-constexpr float largest_feature = 1e15F;
 
 /// The brightest value of the frame is brought to [2^40, 2^41): squares and sums of millions of them stay finite, and
 /// values 2^-166 times as bright are still normal numbers.
@@ -26,106 +23,6 @@ struct Source {
   enum Kind { color, plain, fraction } kind = plain;
   std::size_t column = 0;
 };
-
-/// Counts a kind of oddity and remembers the first pixel that has it.
-class NoteBook {
- public:
-  NoteBook(const Window& window, std::vector<InputNote>& notes) : window_(window), notes_(notes) {}
-
-  void add(const std::string& what, std::size_t pixel) {
-    for (InputNote& note : notes_)
-      if (note.what == what) {
-        ++note.count;
-        return;
-      }
-    const auto width = static_cast<std::size_t>(window_.width);
-    notes_.push_back(
-        {what, 1, window_.x + static_cast<int>(pixel % width), window_.y + static_cast<int>(pixel / width)});
-  }
-
- private:
-  Window window_;
-  std::vector<InputNote>& notes_;
-};
-
-struct Columns {
-  std::size_t color[3] = {0, 0, 0}, film[2] = {0, 0};
-  std::optional<std::size_t> alpha, weight, hit;
-  std::vector<std::size_t> normal;     ///< of the first hit: 3 columns, or none
-  std::vector<std::size_t> position;   ///< of the first hit: the components there are
-  std::vector<std::size_t> variables;  ///< random parameters and features: all whose missing values are marked
-};
-
-std::vector<std::size_t> all_of(const SampleLayout& layout, std::initializer_list<const char*> slots) {
-  std::vector<std::size_t> columns;
-  for (const char* slot : slots)
-    if (const auto column = layout.find(slot)) columns.push_back(*column);
-  return columns.size() == slots.size() ? columns : std::vector<std::size_t>{};
-}
-
-Columns find_columns(const SampleLayout& layout) {
-  Columns c;
-  const auto color = all_of(layout, {"R", "G", "B"});
-  const auto film = all_of(layout, {"film.X", "film.Y"});
-  std::copy(color.begin(), color.end(), c.color);
-  std::copy(film.begin(), film.end(), c.film);
-  c.alpha = layout.find("A");
-  c.weight = layout.find("weight");
-  c.hit = layout.find("feature.hit");
-  c.normal = all_of(layout, {"feature.N.X", "feature.N.Y", "feature.N.Z"});
-  for (std::size_t i = 0; i < layout.size(); ++i)
-    if (is_feature_slot(layout.slots[i]) && group_of(layout.slots[i]) == "P") c.position.push_back(i);
-  for (std::size_t i = 0; i < layout.size(); ++i)
-    if (is_random_slot(layout.slots[i]) || is_feature_slot(layout.slots[i])) c.variables.push_back(i);
-  return c;
-}
-
-bool is_usable(const float* record, const Columns& columns) {
-  for (const std::size_t c : columns.color)
-    if (!std::isfinite(record[c])) return false;
-  return !columns.weight || (std::isfinite(record[*columns.weight]) && record[*columns.weight] >= 0);
-}
-
-/// Marks what cannot be used as missing, and says so.
-void clean_record(float* record, const Columns& columns, const SampleLayout& layout, bool clamp_negative,
-                  NoteBook& notes, std::size_t pixel) {
-  for (const std::size_t c : columns.color) {
-    if (!(record[c] < 0)) continue;
-    notes.add(clamp_negative ? "negative radiance values, set to 0" : "negative radiance values, kept", pixel);
-    if (clamp_negative) record[c] = 0;
-  }
-  if (columns.alpha && !std::isfinite(record[*columns.alpha])) record[*columns.alpha] = 0;
-  for (const std::size_t c : columns.film)
-    if (!std::isfinite(record[c])) {
-      notes.add(fmt::format("missing values of {}", layout.slots[c]), pixel);
-      record[c] = missing;
-    }
-  for (const std::size_t c : columns.variables)
-    if (!(std::fabs(record[c]) <= largest_feature)) {
-      notes.add(fmt::format("missing values of {}", layout.slots[c]), pixel);
-      record[c] = missing;
-    }
-}
-
-/// Leaves out samples whose color or weight cannot be used, and cleans the others. The buffer shrinks in place.
-void clean(SampleBuffer& samples, const Columns& columns, const Settings& settings, NoteBook notes) {
-  const std::size_t stride = samples.layout.size();
-  std::uint32_t kept = 0;
-  for (std::size_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel) {
-    const std::uint32_t begin = std::exchange(samples.first_sample[pixel], kept);
-    for (std::uint32_t sample = begin; sample < samples.first_sample[pixel + 1]; ++sample) {
-      float* record = samples.record(sample);
-      if (!is_usable(record, columns)) {
-        notes.add("samples left out: R, G or B not finite, or weight not a number from 0 up", pixel);
-        continue;
-      }
-      clean_record(record, columns, samples.layout, settings.clamp_negative, notes, pixel);
-      std::copy(record, record + stride, samples.record(kept++));
-    }
-  }
-  samples.first_sample.back() = kept;
-  samples.values.resize(kept * stride);
-}
 
 /// The power of two that brings the brightest value to [2^40, 2^41); 1 for a black frame.
 float radiance_scale(const SampleBuffer& samples, const Columns& columns) {
@@ -207,7 +104,7 @@ std::vector<Source> carried_sources(const SampleLayout& layout, const Columns& c
   for (const std::size_t c : columns.color) sources.push_back({Source::color, c});
   if (columns.alpha) {
     sources.push_back({Source::plain, *columns.alpha});
-    names.push_back("A");
+    names.emplace_back("A");
   }
   for (std::size_t c = 0; settings.filter_features && c < layout.size(); ++c) {
     if (!is_feature_slot(layout.slots[c])) continue;
@@ -277,7 +174,7 @@ PreparedFrame prepare(SampleBuffer samples, const Settings& settings) {
   const Selection selection = select_channels(samples.layout, settings);
   PreparedFrame result;
   result.facts.crop = wanted_region(samples.data_window, settings.crop);
-  clean(samples, columns, settings, NoteBook(samples.data_window, result.notes));
+  result.notes = clean(samples, columns, settings.clamp_negative);
   result.radiance_scale = radiance_scale(samples, columns);
   result.facts.position_diagonal = position_diagonal(samples, columns);
 

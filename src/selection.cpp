@@ -64,8 +64,8 @@ Selection select_channels(const SampleLayout& layout, const Settings& settings) 
   Selection selection;
   selection.random = pick(random, wanted, "random parameter");
   if (contains(wanted, inside_pixel)) {
-    selection.random.push_back("pixel.X");
-    selection.random.push_back("pixel.Y");
+    selection.random.emplace_back("pixel.X");
+    selection.random.emplace_back("pixel.Y");
   }
   if (contains(settings.features.value_or(Groups{}), inside_pixel))
     throw Error(ErrorKind::usage,

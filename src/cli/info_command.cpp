@@ -25,7 +25,7 @@ std::string type_name(PixelType type) {
 std::string window_text(const Window& w) { return fmt::format("{}x{}{:+}{:+}", w.width, w.height, w.x, w.y); }
 
 void print_file(const SampleFileInfo& info) {
-  const double pixels = static_cast<double>(info.data_window.pixel_count());
+  const auto pixels = static_cast<double>(info.data_window.pixel_count());
   fmt::print("{}\n  data window {}, display window {}, compression {}\n", info.path, window_text(info.data_window),
              window_text(info.display_window), info.compression);
   fmt::print("  {} samples: {} to {} a pixel, {:.2f} on average, {} empty pixels\n", info.sample_count,

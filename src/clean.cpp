@@ -1,0 +1,121 @@
+#include "clean.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace rpf {
+namespace {
+
+constexpr float missing = std::numeric_limits<float>::quiet_NaN();
+
+/// Larger feature values count as missing: their squares would not survive a sum, and renderers write such values for
+/// "no hit".
+constexpr float largest_feature = 1e15F;
+
+std::vector<std::size_t> all_of(const SampleLayout& layout, std::initializer_list<const char*> slots) {
+  std::vector<std::size_t> columns;
+  for (const char* slot : slots)
+    if (const auto column = layout.find(slot)) columns.push_back(*column);
+  return columns.size() == slots.size() ? columns : std::vector<std::size_t>{};
+}
+
+/// How often something was found, and the pixel where it was found first.
+struct Tally {
+  std::uint64_t count = 0;
+  std::size_t first_pixel = 0;
+
+  void add(std::size_t pixel) {
+    if (count++ == 0) first_pixel = pixel;
+  }
+};
+
+struct Findings {
+  Tally left_out, negative;
+  std::vector<Tally> missing;  ///< [column]
+};
+
+bool is_usable(const float* record, const Columns& columns) {
+  for (const std::size_t c : columns.color)
+    if (!std::isfinite(record[c])) return false;
+  return !columns.weight || (std::isfinite(record[*columns.weight]) && record[*columns.weight] >= 0);
+}
+
+void clean_record(float* record, const Columns& columns, bool clamp_negative, Findings& findings, std::size_t pixel) {
+  for (const std::size_t c : columns.color) {
+    if (!(record[c] < 0)) continue;
+    findings.negative.add(pixel);
+    if (clamp_negative) record[c] = 0;
+  }
+  if (columns.alpha && !std::isfinite(record[*columns.alpha])) record[*columns.alpha] = 0;
+  const auto mark_missing = [&](std::size_t c) {
+    findings.missing[c].add(pixel);
+    record[c] = missing;
+  };
+  for (const std::size_t c : columns.film)
+    if (!std::isfinite(record[c])) mark_missing(c);
+  for (const std::size_t c : columns.variables)
+    if (!(std::fabs(record[c]) <= largest_feature)) mark_missing(c);
+}
+
+std::vector<InputNote> notes_of(const Findings& findings, const SampleBuffer& samples, bool clamp_negative) {
+  std::vector<InputNote> notes;
+  const auto width = static_cast<std::size_t>(samples.data_window.width);
+  const auto tell = [&](const Tally& tally, const std::string& what) {
+    if (tally.count == 0) return;
+    notes.push_back({what, tally.count, samples.data_window.x + static_cast<int>(tally.first_pixel % width),
+                     samples.data_window.y + static_cast<int>(tally.first_pixel / width)});
+  };
+  tell(findings.left_out, "samples left out: R, G or B not finite, or weight not a number from 0 up");
+  tell(findings.negative, clamp_negative ? "negative radiance values, set to 0" : "negative radiance values, kept");
+  for (std::size_t c = 0; c < findings.missing.size(); ++c)
+    tell(findings.missing[c], fmt::format("missing values of {}", samples.layout.slots[c]));
+  return notes;
+}
+
+}  // namespace
+
+Columns find_columns(const SampleLayout& layout) {
+  Columns c;
+  const auto color = all_of(layout, {"R", "G", "B"});
+  const auto film = all_of(layout, {"film.X", "film.Y"});
+  std::copy(color.begin(), color.end(), c.color);
+  std::copy(film.begin(), film.end(), c.film);
+  c.alpha = layout.find("A");
+  c.weight = layout.find("weight");
+  c.hit = layout.find("feature.hit");
+  c.normal = all_of(layout, {"feature.N.X", "feature.N.Y", "feature.N.Z"});
+  for (std::size_t i = 0; i < layout.size(); ++i)
+    if (is_feature_slot(layout.slots[i]) && group_of(layout.slots[i]) == "P") c.position.push_back(i);
+  for (std::size_t i = 0; i < layout.size(); ++i)
+    if (is_random_slot(layout.slots[i]) || is_feature_slot(layout.slots[i])) c.variables.push_back(i);
+  return c;
+}
+
+std::vector<InputNote> clean(SampleBuffer& samples, const Columns& columns, bool clamp_negative) {
+  const std::size_t stride = samples.layout.size();
+  Findings findings;
+  findings.missing.resize(stride);
+  std::uint32_t kept = 0;
+  for (std::size_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel) {
+    const std::uint32_t begin = std::exchange(samples.first_sample[pixel], kept);
+    for (std::uint32_t sample = begin; sample < samples.first_sample[pixel + 1]; ++sample) {
+      float* record = samples.record(sample);
+      if (!is_usable(record, columns)) {
+        findings.left_out.add(pixel);
+        continue;
+      }
+      clean_record(record, columns, clamp_negative, findings, pixel);
+      if (sample != kept) std::copy(record, record + stride, samples.record(kept));
+      ++kept;
+    }
+  }
+  samples.first_sample.back() = kept;
+  samples.values.resize(kept * stride);
+  return notes_of(findings, samples, clamp_negative);
+}
+
+}  // namespace rpf
