@@ -11,10 +11,7 @@
 #define RPF_NUMERIC_H
 // NOLINTBEGIN(modernize-*, bugprone-macro-parentheses): this is OpenCL C too
 
-#ifdef __OPENCL_VERSION__
-#pragma OPENCL FP_CONTRACT OFF
-#define RPF_INLINE static inline
-#else
+#ifdef __cplusplus
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -30,6 +27,9 @@ inline float as_float(int bits) {
   return value;
 }
 inline uint mul_hi(uint a, uint b) { return static_cast<uint>((std::uint64_t{a} * b) >> 32); }
+#else
+#pragma OPENCL FP_CONTRACT OFF
+#define RPF_INLINE static inline
 #endif
 
 // ---- missing values -------------------------------------------------------------------------------------------------
@@ -76,12 +76,12 @@ RPF_INLINE void rpf_lanes_clear(rpf_lanes* sum) {
 
 RPF_INLINE void rpf_lanes_add(rpf_lanes* sum, uint j, float value) { sum->lane[j % RPF_LANES] += value; }
 
-// The fixed tree: halves are added until one is left, lane l with lane l + half.
+// The fixed tree: halves are added until one is left, lane l with lane l + width.
 RPF_INLINE float rpf_lanes_total(const rpf_lanes* sum) {
   float lane[RPF_LANES];
   for (int l = 0; l < RPF_LANES; ++l) lane[l] = sum->lane[l];
-  for (int half = RPF_LANES / 2; half > 0; half /= 2)
-    for (int l = 0; l < half; ++l) lane[l] += lane[l + half];
+  for (int width = RPF_LANES / 2; width > 0; width /= 2)
+    for (int l = 0; l < width; ++l) lane[l] += lane[l + width];
   return lane[0];
 }
 
@@ -114,7 +114,7 @@ RPF_INLINE rpf_words rpf_hash(uint x, uint y, uint z) {
   return words;
 }
 
-#ifndef __OPENCL_VERSION__
+#ifdef __cplusplus
 }  // namespace rpf::kernel
 #endif
 

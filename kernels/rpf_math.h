@@ -6,7 +6,7 @@
 
 #include "numeric.h"
 
-#ifndef __OPENCL_VERSION__
+#ifdef __cplusplus
 namespace rpf::kernel {
 #endif
 
@@ -127,7 +127,7 @@ RPF_INLINE int rpf_is_outlier(float value, float mean, float deviation) {
   return fabs(value - mean) > RPF_OUTLIER_THRESHOLD * deviation;
 }
 
-#ifndef __OPENCL_VERSION__
+#ifdef __cplusplus
 }  // namespace rpf::kernel
 #endif
 

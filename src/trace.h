@@ -6,6 +6,16 @@
 
 namespace rpf {
 
+/// What section 5 ends with. m features.
+struct FilterWeights {
+  float color_fraction_random[3] = {0, 0, 0};  ///< W_c,i^r
+  std::vector<float> feature_fraction_random;  ///< [m] W_f,k^r
+  std::vector<float> fraction_feature;         ///< [m] W_c^{f,k}
+  float fraction_random = 0;                   ///< W_c^r
+  float alpha[3] = {0, 0, 0};
+  std::vector<float> beta;  ///< [m]
+};
+
 /// Variables are in the order of Variables (plan.h); V is their number, m the number of features, N of neighbors.
 struct PixelTrace {
   int pass = 0;
@@ -25,12 +35,7 @@ struct PixelTrace {
   std::vector<std::uint8_t> bins;         ///< [N][V] bin + K
   std::vector<std::uint32_t> histograms;  ///< [pair][B][B], row: first variable; pairs as in mutual_information
   std::vector<float> mutual_information;  ///< colors x (position, random, features), then features x (position, random)
-  float color_fraction_random[3] = {0, 0, 0};  ///< W_c,i^r
-  std::vector<float> feature_fraction_random;  ///< [m] W_f,k^r
-  std::vector<float> fraction_feature;         ///< [m] W_c^{f,k}
-  float fraction_random = 0;                   ///< W_c^r
-  float alpha[3] = {0, 0, 0};
-  std::vector<float> beta;  ///< [m]
+  FilterWeights filter_weights;
 
   // Section 6 and 7, of the pixel's own samples (s of them).
   std::vector<float> weights;   ///< [s][N]

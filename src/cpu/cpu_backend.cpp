@@ -133,12 +133,7 @@ PixelTrace CpuBackend::trace(int pass, std::uint32_t pixel) {
   t.bins = w.dependencies.bins;
   t.histograms = w.dependencies.histograms;
   t.mutual_information = w.dependencies.information;
-  std::copy_n(w.weights.color_fraction_random, 3, t.color_fraction_random);
-  t.feature_fraction_random = w.weights.feature_fraction_random;
-  t.fraction_feature = w.weights.fraction_feature;
-  t.fraction_random = w.weights.fraction_random;
-  std::copy_n(w.weights.alpha, 3, t.alpha);
-  t.beta = w.weights.beta;
+  t.filter_weights = w.weights;
   return t;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cpu/neighborhood.h"
+#include "trace.h"
 
 namespace rpf {
 
@@ -31,16 +32,7 @@ struct Dependencies {
 /// Section 5, first half.
 void measure_dependencies(const Plan& plan, int pass, const Neighborhood& n, Dependencies& out);
 
-/// Section 5, second half. m features.
-struct FilterWeights {
-  float color_fraction_random[3] = {0, 0, 0};  ///< W_c,i^r
-  std::vector<float> feature_fraction_random;  ///< [m] W_f,k^r
-  std::vector<float> fraction_feature;         ///< [m] W_c^{f,k}
-  float fraction_random = 0;                   ///< W_c^r
-  float alpha[3] = {0, 0, 0};
-  std::vector<float> beta;  ///< [m]
-};
-
+/// Section 5, second half.
 void compute_weights(const Plan& plan, int pass, const Dependencies& dependencies, FilterWeights& out);
 
 }  // namespace rpf
