@@ -54,6 +54,13 @@ TEST(Plan, HasToleranceAndFactorOfEveryFeature) {
   EXPECT_EQ(make_plan(facts(), all).minimum_tolerance, (std::vector<float>{0.1F, 1, 1, 0.1F}));
 }
 
+TEST(Plan, AllowsOneAttemptMoreThanRedraws) {
+  Settings settings;
+  EXPECT_EQ(make_plan(facts(), settings).attempts, 9U);
+  settings.redraws = 0;
+  EXPECT_EQ(make_plan(facts(), settings).attempts, 1U);
+}
+
 TEST(Plan, GrowsTheRegionOfEarlierPasses) {
   FrameFacts f = facts();
   f.crop = {50, 0, 10, 10};
