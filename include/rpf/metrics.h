@@ -1,18 +1,39 @@
-// Errors between images.
+// Errors between images. docs/commands.md has every definition as a formula.
 #pragma once
+
+#include <array>
 
 #include "rpf/image.h"
 
 namespace rpf {
 
-/// Errors of an image against its reference over R, G and B of all pixels.
+/// Where one channel of an image is farthest from its reference. NaN counts as farther than any number.
+struct LargestDifference {
+  double difference = 0;  ///< |a - b|, linear radiance
+  int x = 0, y = 0;       ///< the first such pixel, in the reference's coordinates
+};
+
+/// Errors of an image a against its reference b, over R, G and B of all pixels. The first block is about linear
+/// radiance; the second about what a display shows: both images clamped to [0, 1], then the sRGB transfer function.
+/// A NaN in the image or its reference makes every mean that includes it NaN.
 struct ImageError {
-  double mse = 0;     ///< mean of (a - b)^2
-  double relmse = 0;  ///< mean of (a - b)^2 / (b^2 + 0.01)
-  double energy = 0;  ///< sum of a / sum of b
+  double mse = 0;             ///< mean of (a - b)^2; 0 is best
+  double relmse = 0;          ///< mean of (a - b)^2 / (b^2 + 0.01), each channel value on its own; 0 is best
+  double trimmed_relmse = 0;  ///< the same without the worst 0.1 % of the pixels, rounded down; 0 is best
+  double mae = 0;             ///< mean of |a - b|; 0 is best
+  double energy = 0;          ///< sum of a / sum of b; 1 is best
+  std::array<LargestDifference, 3> largest;  ///< of R, G, B
+
+  double psnr = 0;  ///< decibels, peak 1; infinite where the displayed images are equal
+  double ssim = 0;  ///< mean structural similarity, at most 1, 1 is best; NaN below 11 pixels of width or height
+  double flip = 0;  ///< mean of LDR-FLIP at 67 pixels per degree, [0, 1], 0 is best
 };
 
 /// Compares the R, G, B channels by name. Throws Error(input) where sizes differ or a channel is missing.
 ImageError compare_images(const Image& image, const Image& reference);
+
+/// Where the error is: an image with the one channel "relMSE", in each pixel the mean over R, G, B of
+/// (a - b)^2 / (b^2 + 0.01), in the reference's windows. Throws as compare_images does.
+Image relative_error_map(const Image& image, const Image& reference);
 
 }  // namespace rpf

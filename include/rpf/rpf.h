@@ -8,4 +8,5 @@
 #include "rpf/metrics.h"
 #include "rpf/samples.h"
 #include "rpf/settings.h"
+#include "rpf/srgb.h"
 #include "rpf/version.h"

@@ -1,6 +1,11 @@
 #include <fmt/format.h>
 
+#include <cstdio>
+#include <limits>
+
 #include "cli/commands.h"
+#include "cli/compare_report.h"
+#include "cli/heat_map.h"
 #include "cli/picture.h"
 #include "rpf/error.h"
 #include "rpf/io.h"
@@ -9,35 +14,74 @@
 namespace rpf::cli {
 namespace {
 
+constexpr int exit_above_limit = 1;
+
 struct Options {
   std::vector<std::string> files;
   std::string side_by_side;
+  std::string diff;
+  bool json = false;
+  double max_error = std::numeric_limits<double>::infinity();
+  bool limited = false;  ///< max_error was given
 };
+
+Comparison compare(const Options& options, const std::vector<Image>& images) {
+  Comparison comparison{{}, options.files.back(), options.diff};
+  for (std::size_t i = 0; i + 1 < images.size(); ++i)
+    comparison.images.push_back({options.files[i], compare_images(images[i], images.back())});
+  return comparison;
+}
+
+Image heat_maps(const std::vector<Image>& images) {
+  std::vector<Image> maps;
+  for (std::size_t i = 0; i + 1 < images.size(); ++i)
+    maps.push_back(heat_map(relative_error_map(images[i], images.back())));
+  return with_legend(side_by_side(maps));
+}
+
+/// Says which images are above the limit. An error that is no number is above every limit.
+bool above_limit(const Comparison& comparison, double limit) {
+  bool above = false;
+  for (const ComparedImage& image : comparison.images) {
+    if (image.error.relmse <= limit) continue;
+    fmt::print(stderr, "rpf: \"{}\": relMSE {:.6g} is above --max-error {:.6g}\n", image.file, image.error.relmse,
+               limit);
+    above = true;
+  }
+  return above;
+}
 
 int run(const Options& options) {
   if (options.files.size() < 2)
     throw Error(ErrorKind::usage, "compare: one or more images and, last, their reference are expected");
   std::vector<Image> images;
   for (const std::string& file : options.files) images.push_back(read_image(file));
-  fmt::print("{:>12} {:>12} {:>9}  {}\n", "relMSE", "MSE", "energy", "image");
-  for (std::size_t i = 0; i + 1 < images.size(); ++i) {
-    const ImageError error = compare_images(images[i], images.back());
-    fmt::print("{:>12.6f} {:>12.6g} {:>9.4f}  {}\n", error.relmse, error.mse, error.energy, options.files[i]);
-  }
+  const Comparison comparison = compare(options, images);
   if (!options.side_by_side.empty()) write_image(options.side_by_side, side_by_side(images));
-  return 0;
+  if (!options.diff.empty()) write_image(options.diff, heat_maps(images));
+  fmt::print("{}", options.json ? json_of(comparison) : table_of(comparison));
+  return options.limited && above_limit(comparison, options.max_error) ? exit_above_limit : 0;
 }
 
 }  // namespace
 
 Command add_compare_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("compare", "Measure images against a reference: relMSE (epsilon 0.01), MSE, energy ratio");
+  CLI::App* command = app.add_subcommand(
+      "compare", "Measure images against a reference: relMSE, MSE, energy, trimmed relMSE, MAE, PSNR, SSIM, FLIP");
   command->add_option("IMAGES", options->files, "Images, the reference last")->required();
   command->add_option("--side-by-side", options->side_by_side, "Also write all of them in a row")
       ->type_name("FILE.png");
-  return [options] { return run(*options); };
+  command->add_option("--diff", options->diff, "Also write heat maps of the relative squared error, with a legend")
+      ->type_name("FILE.png");
+  command->add_flag("--json", options->json, "Print JSON in place of the tables");
+  CLI::Option* limit =
+      command->add_option("--max-error", options->max_error, "Exit code 1 where an image's relMSE is above this")
+          ->check(CLI::NonNegativeNumber);
+  return [options, limit] {
+    options->limited = limit->count() > 0;
+    return run(*options);
+  };
 }
 
 }  // namespace rpf::cli

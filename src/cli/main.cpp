@@ -18,7 +18,8 @@ constexpr const char* footer = R"(Examples:
   rpf info render.samples.exr
   rpf compare before.exr filtered.exr reference.exr --side-by-side picture.png
 
-Exit codes: 0 ok, 1 internal, 2 usage, 3 input, 4 output, 5 device, 6 memory, 128 + signal when stopped.)";
+Exit codes: 0 ok, 1 internal, 2 usage, 3 input, 4 output, 5 device, 6 memory, 128 + signal when stopped;
+rpf compare --max-error: 1 when an image is above it.)";
 
 int run(int argc, char** argv) {
   CLI::App app(

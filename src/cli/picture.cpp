@@ -6,7 +6,7 @@ namespace rpf::cli {
 namespace {
 
 constexpr int gap = 8;
-constexpr int comfortable_width = 320;  ///< a smaller image is enlarged to about this
+constexpr int comfortable_width = 400;  ///< a smaller image is enlarged to about this
 
 /// Column of a channel by name, its position in R, G, B where the name is missing.
 std::size_t column(const Image& image, const char* name, std::size_t otherwise) {

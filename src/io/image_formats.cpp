@@ -8,8 +8,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/srgb.h"
 #include "rpf/error.h"
+#include "rpf/srgb.h"
 
 namespace rpf::io {
 namespace {

@@ -8,8 +8,8 @@
 #include "io/attributes.h"
 #include "io/file_bytes.h"
 #include "io/guard.h"
-#include "io/srgb.h"
 #include "rpf/io.h"
+#include "rpf/srgb.h"
 
 namespace rpf::io {
 namespace {

@@ -1,5 +1,7 @@
 """The command as a user runs it: exit codes, texts, files. Usage: command_test.py RPF PROJECT"""
+import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -53,6 +55,34 @@ class CommandTest(unittest.TestCase):
         self.assertLess(error_after, error_before / 4)
         energy = error_of(run("compare", after, before))[2]
         self.assertAlmostEqual(energy, 1, delta=0.05)
+
+    def test_compare_in_json_is_the_table(self):
+        self.expect(run(EXAMPLE, "-o", self.output, "--boxes", "none", "-q"), 0)
+        image = json.loads(run("compare", "--json", self.output, REFERENCE).stdout)["images"][0]
+        for number, name in zip(error_of(run("compare", self.output, REFERENCE)), ("relMSE", "MSE", "energy")):
+            self.assertAlmostEqual(number, image[name], delta=1e-4)
+        self.assertEqual(set(image["largest_difference"]), set("RGB"))
+        same = json.loads(run("compare", "--json", REFERENCE, REFERENCE).stdout)["images"][0]
+        self.assertIsNone(same["PSNR"])  # infinite
+
+    def test_compare_fails_above_the_largest_error_allowed(self):
+        self.expect(run(EXAMPLE, "-o", self.output, "--boxes", "none", "-q"), 0)
+        self.expect(run("compare", REFERENCE, self.output, REFERENCE, "--max-error", "0.1"), 1, "out.exr", "above --max-error 0.1")
+        self.expect(run("compare", self.output, REFERENCE, "--max-error", "10"), 0)
+        self.expect(run("compare", REFERENCE, REFERENCE, "--max-error", "0"), 0)
+        self.expect(run("compare", self.output, REFERENCE, "--max-error", "-1"), 2)
+
+    def test_heat_map_is_dark_without_error_and_has_all_colors_in_its_legend(self):
+        map_ = self.folder / "diff.ppm"
+        self.expect(run("compare", REFERENCE, REFERENCE, "--diff", map_), 0, "from 0.0001 (dark) to 1 (bright)")
+        magic, width, height, _, pixels = re.match(rb"(P6)\s(\d+)\s(\d+)\s(\d+)\s(.*)", map_.read_bytes(), re.S).groups()
+        width, height = int(width), int(height)
+        rows = [pixels[3 * width * y:3 * width * (y + 1)] for y in range(height)]
+        legend = slice(-3 * 7, -3 * 6)  # the bar's last column; six columns of ticks follow
+        darkest, brightest = bytes.fromhex("000004"), bytes.fromhex("fcfdbf")
+        self.assertEqual((rows[0][legend], rows[-1][legend]), (brightest, darkest))
+        self.assertEqual({row[:3] for row in rows}, {darkest})
+        self.assertEqual(sum(row[-3:] == bytes(3) for row in rows), 5)  # 1, 0.1, 0.01, 0.001, 0.0001
 
     def test_two_runs_and_threads_write_the_same_bytes(self):
         images = []

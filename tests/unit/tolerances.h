@@ -25,4 +25,9 @@ constexpr double outlier_energy = 1e-6;
 /// The sum of a pixel's float mean against a double mean.
 constexpr double pixel_mean = 1e-6;
 
+/// FLIP of black and white against the published colors of green and blue, which have four decimals.
+constexpr double flip = 1e-5;
+/// FLIP in double against flip-evaluator in float; measured: at most 4.3e-7.
+constexpr double flip_in_single_precision = 2e-6;
+
 }  // namespace rpf::test::tolerance

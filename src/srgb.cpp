@@ -1,8 +1,8 @@
-#include "io/srgb.h"
+#include "rpf/srgb.h"
 
 #include <cmath>
 
-namespace rpf::io {
+namespace rpf {
 
 double srgb_encode(double linear) {
   if (linear < 0) return -srgb_encode(-linear);
@@ -14,4 +14,4 @@ double srgb_decode(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-}  // namespace rpf::io
+}  // namespace rpf

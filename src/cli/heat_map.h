@@ -1,0 +1,23 @@
+// Errors as colors.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "rpf/image.h"
+
+namespace rpf::cli {
+
+/// What the ends of the color map stand for; between them it is logarithmic. Fixed, so that pictures can be compared.
+constexpr double darkest_error = 1e-4, brightest_error = 1;
+
+/// 0xRRGGBB in sRGB, from dark to bright.
+extern const std::array<std::uint32_t, 256> magma;
+
+/// The one channel of `errors` in colors. NaN has the brightest.
+Image heat_map(const Image& errors);
+
+/// The picture with a bar of all colors at its right, the brightest on top, and a tick at each power of ten.
+Image with_legend(const Image& picture);
+
+}  // namespace rpf::cli
