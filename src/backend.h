@@ -7,18 +7,14 @@
 #include <vector>
 
 #include "frame.h"
+#include "pass.h"
 #include "plan.h"
 #include "trace.h"
 
 namespace rpf {
 
-/// What the filter found at a pixel in the latest pass; the driver averages it for the report.
-struct PixelStatistics {
-  std::uint32_t drawn = 0;      ///< candidates drawn
-  std::uint32_t neighbors = 0;  ///< N; 0: not filtered or no samples
-  float fraction_random = 0;    ///< W_c^r
-  float alpha = 0, beta = 0;    ///< means over the channels
-};
+/// What the filter found at a pixel in the latest pass.
+using PixelStatistics = kernel::rpf_pixel_statistics;
 
 class Backend {
  public:
@@ -31,9 +27,8 @@ class Backend {
   virtual void run(int pass, const Window& tile) = 0;
   /// Ends a pass: its result becomes the input c' of the next.
   virtual void end_pass() = 0;
-  /// The mean of every pixel's samples as after the latest ended pass, scaled radiance: [pixel][carried]; 0 where there
-  /// are none.
-  virtual std::vector<float> resolve() = 0;
+  /// The samples' colors as after the latest ended pass, scaled radiance: [sample][carried].
+  virtual const std::vector<float>& colors() const = 0;
   /// [pixel], of the latest pass run.
   virtual const std::vector<PixelStatistics>& statistics() const = 0;
   /// Peak bytes of scratch memory beside frame and result.

@@ -6,6 +6,7 @@
 #include "memory.h"
 #include "progress_meter.h"
 #include "provenance.h"
+#include "resolve.h"
 #include "rpf/error.h"
 
 namespace rpf {
@@ -105,12 +106,12 @@ class Run {
     ProgressMeter meter(plan_, control_);
     Result result;
     backend_->load(prepared_.frame, std::move(prepared_.colors), plan_);
-    Pixels pixels = backend_->resolve();
+    Pixels pixels = resolved();
     const double plain_energy = energy(pixels, prepared_.facts);
     for (int pass = 0; pass < static_cast<int>(plan_.passes.size()); ++pass) {
       if (before_pass) before_pass(*backend_, plan_, pass);
       PassReport report = run_pass(pass, meter);
-      pixels = backend_->resolve();
+      pixels = resolved();
       const double kept = energy(pixels, prepared_.facts);
       report.energy = kept == plain_energy ? 1 : kept / plain_energy;
       result.report.passes.push_back(report);
@@ -121,6 +122,8 @@ class Run {
   }
 
  private:
+  Pixels resolved() const { return resolve(prepared_.frame, backend_->colors(), plan_.carried); }
+
   PassReport run_pass(int pass, ProgressMeter& meter) {
     const PassPlan& plan = plan_.passes[static_cast<std::size_t>(pass)];
     const double start = meter.seconds();

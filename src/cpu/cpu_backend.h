@@ -18,7 +18,7 @@ class CpuBackend : public Backend {
   void load(const Frame& frame, std::vector<float> colors, const Plan& plan) override;
   void run(int pass, const Window& tile) override;
   void end_pass() override;
-  std::vector<float> resolve() override;
+  const std::vector<float>& colors() const override { return colors_; }
   const std::vector<PixelStatistics>& statistics() const override { return statistics_; }
   std::uint64_t scratch_bytes(const Plan& plan) const override;
   PixelTrace trace(int pass, std::uint32_t pixel) override;
