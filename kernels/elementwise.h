@@ -1,5 +1,5 @@
-// Formulas that hold value by value. numeric.h includes this text once for every type: RPF_REAL is float, and in OpenCL C
-// also float16, so that a scalar loop and a vector unit compute from the same lines. Hence no include guard.
+// Formulas that hold value by value. numeric.h includes this text once for every type: RPF_REAL is float, and in OpenCL
+// C also float16, so that a scalar loop and a vector unit compute from the same lines. Hence no include guard.
 //
 // A comparison is 0 or 1 for a float and 0 or -1 per lane for a float16: use it in `?:` and with bit operations only.
 // NOLINTBEGIN(modernize-*, bugprone-macro-parentheses): this is OpenCL C too

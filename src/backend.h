@@ -20,6 +20,8 @@ class Backend {
  public:
   virtual ~Backend() = default;
 
+  /// Its name, with the device it runs on, for example "opencl (pthread-skylake-avx512)".
+  virtual std::string description() const = 0;
   /// Called once, before anything else. Frame and plan outlive the backend; `colors` is c' of the first pass,
   /// [sample][carried].
   virtual void load(const Frame& frame, std::vector<float> colors, const Plan& plan) = 0;
@@ -37,7 +39,12 @@ class Backend {
   virtual PixelTrace trace(int pass, std::uint32_t pixel) = 0;
 };
 
-/// Creates a backend by name. Throws Error(usage) for an unknown name, Error(device) where it cannot work.
-std::unique_ptr<Backend> make_backend(const std::string& name, int threads);
+/// Creates the backend that Settings::backend and Settings::device ask for; "auto" is OpenCL where a device passes the
+/// self-test, else the reference, whose description then says why. Throws Error(usage) for an unknown name,
+/// Error(device) where it cannot work.
+std::unique_ptr<Backend> make_backend(const Settings& settings);
+
+/// The threads that the settings stand for: all cores of the affinity mask where they do not say.
+int thread_count(const Settings& settings);
 
 }  // namespace rpf

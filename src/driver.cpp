@@ -88,16 +88,14 @@ std::size_t color_channels(const PreparedFrame& prepared) {
 class Run {
  public:
   Run(SampleBuffer samples, const Settings& settings, const Control& control)
-      : settings_(settings),
-        control_(control),
-        threads_(settings.threads > 0 ? settings.threads : available_threads()) {
+      : settings_(settings), control_(control), threads_(thread_count(settings)) {
     samples.validate();
     validate(settings);
     geometry_.data_window = settings.crop.value_or(samples.data_window);
     geometry_.display_window = samples.display_window;
     geometry_.metadata = samples.metadata;
     check_memory(samples, settings);
-    backend_ = make_backend(settings.backend, threads_);
+    backend_ = make_backend(settings);
     prepared_ = prepare(std::move(samples), settings);
     plan_ = make_plan(prepared_.facts, settings);
   }
@@ -141,7 +139,7 @@ class Run {
   }
 
   void describe(Result& result, const Pixels& pixels) {
-    result.report.backend = settings_.backend;
+    result.report.backend = backend_->description();
     result.report.random = plan_.variables.random_names;
     result.report.features = plan_.variables.feature_names;
     result.report.dropped = prepared_.dropped;

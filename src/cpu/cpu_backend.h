@@ -10,11 +10,14 @@ namespace rpf {
 
 class CpuBackend : public Backend {
  public:
-  explicit CpuBackend(int threads)
-      : limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
+  /// `reason`: why it is this backend, where that was not the user's choice.
+  explicit CpuBackend(int threads, std::string reason = {})
+      : reason_(std::move(reason)),
+        limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
         threads_(threads),
         arena_(threads) {}
 
+  std::string description() const override { return reason_.empty() ? "cpu" : "cpu (" + reason_ + ")"; }
   void load(const Frame& frame, std::vector<float> colors, const Plan& plan) override;
   void run(int pass, const Window& tile) override;
   void end_pass() override;
@@ -24,6 +27,7 @@ class CpuBackend : public Backend {
   PixelTrace trace(int pass, std::uint32_t pixel) override;
 
  private:
+  std::string reason_;
   tbb::global_control limit_;  ///< lets oneTBB have more threads than cores where the caller asks for them
   int threads_;
   tbb::task_arena arena_;
