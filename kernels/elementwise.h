@@ -57,7 +57,43 @@ RPF_INLINE RPF_REAL rpf_exp(RPF_REAL x) {
   return representable ? result : 0.0f;
 }
 
+// ---- random numbers -------------------------------------------------------------------------------------------------
+
+// Three independent 32-bit words.
+typedef struct {
+  RPF_UINT x, y, z;
+} RPF_WORDS;
+
+// pcg3d: a counter-based generator, three words in, three out (Jarzynski and Olano, "Hash Functions for GPU Rendering",
+// JCGT 9(3), 2020). No state: the draws do not depend on the order in which pixels are visited.
+RPF_INLINE RPF_WORDS rpf_hash(RPF_UINT x, RPF_UINT y, RPF_UINT z) {
+  x = x * 1664525u + 1013904223u;
+  y = y * 1664525u + 1013904223u;
+  z = z * 1664525u + 1013904223u;
+  x += y * z;
+  y += z * x;
+  z += x * y;
+  x ^= x >> 16;
+  y ^= y >> 16;
+  z ^= z >> 16;
+  x += y * z;
+  y += z * x;
+  z += x * y;
+  RPF_WORDS words;
+  words.x = x;
+  words.y = y;
+  words.z = z;
+  return words;
+}
+
 // ---- section 3: neighborhood ----------------------------------------------------------------------------------------
+
+// The random words of one attempt of one draw: x indexes the offset table (low half: dx, high half: dy), y picks the
+// sample. A draw has at most RPF_MAX_ATTEMPTS attempts, so that the counters of two draws never meet.
+#define RPF_MAX_ATTEMPTS 16u
+RPF_INLINE RPF_WORDS rpf_draw_words(rpf_words key, RPF_UINT draw, uint attempt) {
+  return rpf_hash(key.x ^ (draw * RPF_MAX_ATTEMPTS + attempt), key.y, key.z);
+}
 
 // The one tolerance that the two conditions of the rejection test come to for H >= 1: max(H s, a).
 RPF_INLINE RPF_REAL rpf_tolerance(RPF_REAL rejection_factor, RPF_REAL own_deviation, RPF_REAL minimum) {

@@ -7,8 +7,8 @@
 #include "statistics.cl"
 #include "weighting.cl"
 
-static void trace_vectors(const Trace* trace, uint at, const float16* values) {
-  for (int c = 0; c < RPF_CHUNKS; ++c) vstore16(values[c], c, trace->values + at);
+static void trace_vectors(const Trace* trace, uint at, const float16* values, int count) {
+  for (int c = 0; c < count; ++c) vstore16(values[c], c, trace->values + at);
 }
 
 static void trace_floats(const Trace* trace, uint at, const float* values, uint count) {
@@ -16,10 +16,10 @@ static void trace_floats(const Trace* trace, uint at, const float* values, uint 
 }
 
 static void trace_moments(const Trace* trace, const OwnMoments* moments) {
-  trace_vectors(trace, trace->at.shift, moments->shift);
-  trace_vectors(trace, trace->at.own_mean, moments->mean);
-  trace_vectors(trace, trace->at.own_deviation, moments->deviation);
-  trace_vectors(trace, trace->at.tolerance, moments->tolerance);
+  trace_vectors(trace, trace->at.shift, moments->shift, RPF_CHUNKS);
+  trace_vectors(trace, trace->at.own_mean, moments->mean, RPF_FEATURE_CHUNKS);
+  trace_vectors(trace, trace->at.own_deviation, moments->deviation, RPF_FEATURE_CHUNKS);
+  trace_vectors(trace, trace->at.tolerance, moments->tolerance, RPF_FEATURE_CHUNKS);
 }
 
 // Section 4 for all variables.
@@ -63,7 +63,7 @@ static rpf_pixel_statistics filter_pixel(const Frame* frame, const rpf_pass* pas
   if (own == 0) return statistics;
 
   OwnMoments moments;
-  for (int c = 0; c < RPF_CHUNKS; ++c) own_moments(frame, pass, first, own, c, &moments);
+  own_moments(frame, pass, first, own, &moments);
   statistics.drawn = draw_candidates(frame, pass, pixel, own, slot);
   const uint neighbors = gather(frame, pass, first, own, &moments, statistics.drawn, slot);
   statistics.neighbors = neighbors;

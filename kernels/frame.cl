@@ -1,12 +1,14 @@
 // The device's view of the samples, and the scratch memory of one work-item.
 //
-// Compiled in (-D): RPF_VARIABLES, RPF_RANDOM, RPF_FEATURES, RPF_BINS, RPF_CARRIED of the plan, and RPF_SAMPLES, the
-// samples of every pixel, 0 where they vary.
+// Compiled in (-D): RPF_VARIABLES, RPF_RANDOM, RPF_FEATURES, RPF_BINS, RPF_CARRIED of the plan; RPF_REJECTING, how many
+// features have to be looked at to reject a candidate; RPF_SAMPLES, the samples of every pixel, 0 where they vary.
 #include "pass.h"
 #include "rpf_math.h"
 #include "trace_layout.h"
 
 #define RPF_CHUNKS ((RPF_VARIABLES + RPF_LANES - 1) / RPF_LANES)  // vectors that hold a record
+#define RPF_FEATURE_CHUNKS ((RPF_FEATURES + RPF_LANES - 1) / RPF_LANES)
+#define RPF_REJECTING_CHUNKS ((RPF_REJECTING + RPF_LANES - 1) / RPF_LANES)
 #define RPF_POSITION 3                                            // first position coordinate of a record
 #define RPF_FIRST_FEATURE (5 + RPF_RANDOM)
 #define RPF_PAIRS (3 * (2 + RPF_RANDOM + RPF_FEATURES) + RPF_FEATURES * (2 + RPF_RANDOM))  // rpf_pairs()
@@ -24,8 +26,8 @@ typedef struct {
   __global const char* offsets;             // [65536] of the draws
   __global const uint* draws;               // [samples of a pixel] candidates to draw
   __global const int* entropy;              // [n] S n log2 n
-  __global const float* rejection_factor;   // [RPF_CHUNKS * RPF_LANES] H
-  __global const float* minimum_tolerance;  // [RPF_CHUNKS * RPF_LANES] a; infinity where a variable takes no part
+  __global const float* rejection_factor;   // [RPF_FEATURE_CHUNKS * RPF_LANES] H
+  __global const float* minimum_tolerance;  // [RPF_FEATURE_CHUNKS * RPF_LANES] a; infinity: takes no part
 } Frame;
 
 // Scratch of a work-item for up to `capacity` neighbors, `blocks` of RPF_LANES.

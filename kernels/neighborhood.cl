@@ -1,9 +1,11 @@
 // Section 3: which samples a pixel is filtered with. A vector holds RPF_LANES variables of one record here.
 
-// What the pixel's own samples say, variable by variable. Means are relative to the shift.
+// What the pixel's own samples say. Moments and tolerances are of the features, relative to the shift. One vector more
+// than there are features, for none is no size of an array.
 typedef struct {
   float16 shift[RPF_CHUNKS];
-  float16 mean[RPF_CHUNKS], deviation[RPF_CHUNKS], tolerance[RPF_CHUNKS];
+  float16 feature_shift[RPF_FEATURE_CHUNKS + 1];
+  float16 mean[RPF_FEATURE_CHUNKS + 1], deviation[RPF_FEATURE_CHUNKS + 1], tolerance[RPF_FEATURE_CHUNKS + 1];
 } OwnMoments;
 
 static uint first_sample_of(const Frame* frame, const rpf_pass* pass, uint pixel) {
@@ -16,19 +18,23 @@ static uint samples_of(const Frame* frame, const rpf_pass* pass, uint pixel) {
   return frame->first_sample[p + 1] - frame->first_sample[p];
 }
 
-// RPF_LANES variables of a record; behind the last variable follow values that mean nothing.
-static float16 load_chunk(const Frame* frame, const rpf_pass* pass, uint sample, int chunk) {
-  const size_t record = (size_t)(sample - pass->first_sample) * RPF_VARIABLES;
-  return vload16(0, frame->records + record + RPF_LANES * chunk);
+// RPF_LANES variables of a record from `variable` on; behind the last one follow values that mean nothing.
+static float16 load_record(const Frame* frame, const rpf_pass* pass, uint sample, int variable) {
+  return vload16(0, frame->records + (size_t)(sample - pass->first_sample) * RPF_VARIABLES + variable);
 }
 
-static void own_moments(const Frame* frame, const rpf_pass* pass, uint first, uint own, int chunk, OwnMoments* out) {
-  const float16 shift = rpf_or_zero(load_chunk(frame, pass, first, chunk));
+static float16 load_features(const Frame* frame, const rpf_pass* pass, uint sample, int chunk) {
+  return load_record(frame, pass, sample, RPF_FIRST_FEATURE + RPF_LANES * chunk);
+}
+
+static void feature_moments(const Frame* frame, const rpf_pass* pass, uint first, uint own, int chunk,
+                            OwnMoments* out) {
+  const float16 shift = rpf_or_zero(load_features(frame, pass, first, chunk));
   rpf_lanes16 sum;
   rpf_lanes_clear(&sum);
   int16 count = 0;
   for (uint j = 0; j < own; ++j) {
-    const float16 value = load_chunk(frame, pass, first + j, chunk) - shift;
+    const float16 value = load_features(frame, pass, first + j, chunk) - shift;
     rpf_lanes_add(&sum, j, rpf_or_zero(value));
     count += rpf_is_missing(value) ? 0 : 1;
   }
@@ -36,42 +42,61 @@ static void own_moments(const Frame* frame, const rpf_pass* pass, uint first, ui
   const float16 mean = count == 0 ? 0.0f : rpf_lanes_total(&sum) / number;
   rpf_lanes_clear(&sum);
   for (uint j = 0; j < own; ++j) {
-    const float16 off = (load_chunk(frame, pass, first + j, chunk) - shift) - mean;
+    const float16 off = (load_features(frame, pass, first + j, chunk) - shift) - mean;
     rpf_lanes_add(&sum, j, rpf_or_zero(off * off));
   }
   const float16 deviation = count == 0 ? 0.0f : sqrt(rpf_lanes_total(&sum) / number);
   const float16 tolerance =
       rpf_tolerance(vload16(chunk, frame->rejection_factor), deviation, vload16(chunk, frame->minimum_tolerance));
-  out->shift[chunk] = shift;
+  out->feature_shift[chunk] = shift;
   out->mean[chunk] = mean;
   out->deviation[chunk] = deviation;
   out->tolerance[chunk] = count == 0 ? INFINITY : tolerance;
 }
 
-// The sample of one draw; RPF_NO_SAMPLE when every attempt left the image or met an empty pixel.
-static uint draw_candidate(const Frame* frame, const rpf_pass* pass, rpf_words key, int x, int y, uint draw) {
-  for (uint attempt = 0; attempt < pass->attempts; ++attempt) {
-    const rpf_words words = rpf_draw_words(key, draw, attempt);
-    const int dx = frame->offsets[words.x & 0xFFFFu], dy = frame->offsets[words.x >> 16];
-    const int to_x = x + dx, to_y = y + dy;
-    if ((dx == 0 && dy == 0) || to_x < 0 || to_x >= pass->width || to_y < 0 || to_y >= pass->height) continue;
-    const uint pixel = (uint)to_y * (uint)pass->width + (uint)to_x;
-    const uint samples = samples_of(frame, pass, pixel);
-    if (samples > 0) return first_sample_of(frame, pass, pixel) + rpf_choose(words.y, samples);
-  }
-  return RPF_NO_SAMPLE;
+static void own_moments(const Frame* frame, const rpf_pass* pass, uint first, uint own, OwnMoments* out) {
+  for (int c = 0; c < RPF_CHUNKS; ++c) out->shift[c] = rpf_or_zero(load_record(frame, pass, first, RPF_LANES * c));
+  for (int c = 0; c < RPF_FEATURE_CHUNKS; ++c) feature_moments(frame, pass, first, own, c, out);
 }
 
-// Fills slot->candidates; returns their number.
+// The sample that these words draw; RPF_NO_SAMPLE where they leave the image or meet an empty pixel.
+static uint drawn_sample(const Frame* frame, const rpf_pass* pass, int x, int y, uint place, uint choice) {
+  const int dx = frame->offsets[place & 0xFFFFu], dy = frame->offsets[place >> 16];
+  const int to_x = x + dx, to_y = y + dy;
+  if ((dx == 0 && dy == 0) || to_x < 0 || to_x >= pass->width || to_y < 0 || to_y >= pass->height) return RPF_NO_SAMPLE;
+  const uint pixel = (uint)to_y * (uint)pass->width + (uint)to_x;
+  const uint samples = samples_of(frame, pass, pixel);
+  return samples > 0 ? first_sample_of(frame, pass, pixel) + rpf_choose(choice, samples) : RPF_NO_SAMPLE;
+}
+
+// The attempts of a draw behind the first one.
+static uint draw_again(const Frame* frame, const rpf_pass* pass, rpf_words key, int x, int y, uint draw) {
+  uint sample = RPF_NO_SAMPLE;
+  for (uint attempt = 1; attempt < pass->attempts && sample == RPF_NO_SAMPLE; ++attempt) {
+    const rpf_words words = rpf_draw_words(key, draw, attempt);
+    sample = drawn_sample(frame, pass, x, y, words.x, words.y);
+  }
+  return sample;
+}
+
+// Fills slot->candidates; returns their number. The words of RPF_LANES draws are made at once.
 static uint draw_candidates(const Frame* frame, const rpf_pass* pass, uint pixel, uint own, const Slot* slot) {
   const rpf_words key = rpf_draw_key(pass->seed, pass->pass, pixel);
   const int x = (int)(pixel % (uint)pass->width), y = (int)(pixel / (uint)pass->width);
   const uint draws = frame->draws[own];
   uint count = 0;
-  for (uint draw = 0; draw < draws; ++draw) {
-    const uint candidate = draw_candidate(frame, pass, key, x, y, draw);
-    slot->candidates[count] = candidate;
-    count += candidate != RPF_NO_SAMPLE;
+  for (uint begin = 0; begin < draws; begin += RPF_LANES) {
+    const rpf_words16 words = rpf_draw_words(key, begin + as_uint16(RPF_LANE_NUMBERS), 0);
+    uint place[RPF_LANES], choice[RPF_LANES];
+    vstore16(words.x, 0, place);
+    vstore16(words.y, 0, choice);
+    const uint lanes = min(draws - begin, (uint)RPF_LANES);
+    for (uint l = 0; l < lanes; ++l) {
+      uint candidate = drawn_sample(frame, pass, x, y, place[l], choice[l]);
+      if (candidate == RPF_NO_SAMPLE) candidate = draw_again(frame, pass, key, x, y, begin + l);
+      slot->candidates[count] = candidate;
+      count += candidate != RPF_NO_SAMPLE;
+    }
   }
   return count;
 }
@@ -85,9 +110,10 @@ static int any_lane(int16 condition) {
 
 static int is_accepted(const Frame* frame, const rpf_pass* pass, uint sample, const OwnMoments* own) {
   int16 rejected = 0;
-  for (int c = 0; c < RPF_CHUNKS; ++c)
+#pragma unroll
+  for (int c = 0; c < RPF_REJECTING_CHUNKS; ++c)
     rejected |=
-        rpf_rejects(load_chunk(frame, pass, sample, c) - own->shift[c], own->mean[c], own->tolerance[c]);
+        rpf_rejects(load_features(frame, pass, sample, c) - own->feature_shift[c], own->mean[c], own->tolerance[c]);
   return !any_lane(rejected);
 }
 
@@ -114,12 +140,15 @@ static float16 interleave(float8 even, float8 odd) {
 // 16 rows become 16 columns: each of four rounds interleaves row i with row i + 8, which rotates the bits of an
 // element's place (row, column) by one.
 static void transpose(float16* rows) {
+#pragma unroll
   for (int round = 0; round < 4; ++round) {
     float16 mixed[RPF_LANES];
+#pragma unroll
     for (int i = 0; i < RPF_LANES / 2; ++i) {
       mixed[2 * i] = interleave(rows[i].lo, rows[i + 8].lo);
       mixed[2 * i + 1] = interleave(rows[i].hi, rows[i + 8].hi);
     }
+#pragma unroll
     for (int i = 0; i < RPF_LANES; ++i) rows[i] = mixed[i];
   }
 }
@@ -130,12 +159,14 @@ static void fill_columns(const Frame* frame, const rpf_pass* pass, uint neighbor
   for (uint block = 0; block * RPF_LANES < neighbors; ++block)
     for (int c = 0; c < RPF_CHUNKS; ++c) {
       float16 rows[RPF_LANES];
+#pragma unroll
       for (uint l = 0; l < RPF_LANES; ++l) {
         const uint j = block * RPF_LANES + l;
         rows[l] = NAN;
-        if (j < neighbors) rows[l] = load_chunk(frame, pass, slot->neighbors[j], c) - moments->shift[c];
+        if (j < neighbors) rows[l] = load_record(frame, pass, slot->neighbors[j], RPF_LANES * c) - moments->shift[c];
       }
       transpose(rows);
+#pragma unroll
       for (int v = 0; v < RPF_LANES; ++v)
         if (RPF_LANES * c + v < RPF_VARIABLES) slot->columns[(RPF_LANES * c + v) * slot->blocks + block] = rows[v];
     }

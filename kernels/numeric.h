@@ -39,7 +39,9 @@ inline uint mul_hi(uint a, uint b) { return static_cast<uint>((std::uint64_t{a} 
 
 #define RPF_REAL float
 #define RPF_INT int
+#define RPF_UINT uint
 #define RPF_SUMS rpf_lanes
+#define RPF_WORDS rpf_words
 #define RPF_TO_INT(x) ((int)(x))
 #define RPF_TO_REAL(x) ((float)(x))
 #define RPF_AS_REAL(x) as_float(x)
@@ -48,47 +50,22 @@ inline uint mul_hi(uint a, uint b) { return static_cast<uint>((std::uint64_t{a} 
 #ifndef __cplusplus  // the reference is scalar
 #undef RPF_REAL
 #undef RPF_INT
+#undef RPF_UINT
 #undef RPF_SUMS
+#undef RPF_WORDS
 #undef RPF_TO_INT
 #undef RPF_TO_REAL
 #undef RPF_AS_REAL
 #define RPF_REAL float16
 #define RPF_INT int16
+#define RPF_UINT uint16
 #define RPF_SUMS rpf_lanes16
+#define RPF_WORDS rpf_words16
 #define RPF_TO_INT(x) convert_int16(x)
 #define RPF_TO_REAL(x) convert_float16(x)
 #define RPF_AS_REAL(x) as_float16(x)
 #include "elementwise.h"
 #endif
-
-// ---- random numbers -------------------------------------------------------------------------------------------------
-
-// Three independent 32-bit words.
-typedef struct {
-  uint x, y, z;
-} rpf_words;
-
-// pcg3d: a counter-based generator, three words in, three out (Jarzynski and Olano, "Hash Functions for GPU Rendering",
-// JCGT 9(3), 2020). No state: the draws do not depend on the order in which pixels are visited.
-RPF_INLINE rpf_words rpf_hash(uint x, uint y, uint z) {
-  x = x * 1664525u + 1013904223u;
-  y = y * 1664525u + 1013904223u;
-  z = z * 1664525u + 1013904223u;
-  x += y * z;
-  y += z * x;
-  z += x * y;
-  x ^= x >> 16;
-  y ^= y >> 16;
-  z ^= z >> 16;
-  x += y * z;
-  y += z * x;
-  z += x * y;
-  rpf_words words;
-  words.x = x;
-  words.y = y;
-  words.z = z;
-  return words;
-}
 
 #ifdef __cplusplus
 }  // namespace rpf::kernel

@@ -21,13 +21,6 @@ namespace rpf::kernel {
 // The key of a pixel's draws in one pass. Every pass and every seed draws anew.
 RPF_INLINE rpf_words rpf_draw_key(uint seed, uint pass, uint pixel) { return rpf_hash(seed, pass, pixel); }
 
-// The random words of one attempt of one draw: x indexes the offset table (low half: dx, high half: dy), y picks the
-// sample. A draw has at most RPF_MAX_ATTEMPTS attempts, so that the counters of two draws never meet.
-#define RPF_MAX_ATTEMPTS 16u
-RPF_INLINE rpf_words rpf_draw_words(rpf_words key, uint draw, uint attempt) {
-  return rpf_hash(key.x ^ (draw * RPF_MAX_ATTEMPTS + attempt), key.y, key.z);
-}
-
 // A uniform choice among `count` samples.
 RPF_INLINE uint rpf_choose(uint word, uint count) { return mul_hi(word, count); }
 

@@ -86,14 +86,17 @@ static void fill_planes(__global const float16* column, uint neighbors, uint wor
   const uint blocks = (neighbors + RPF_LANES - 1) / RPF_LANES;
   for (uint group = 0; group * 32 < blocks; ++group) {
     uint16 bits[RPF_BINS];
+#pragma unroll
     for (int bin = 0; bin < RPF_BINS; ++bin) bits[bin] = 0;
     const uint end = min(blocks - group * 32, 32u);
     for (uint k = 0; k < end; ++k) {
       const uint block = group * 32 + k;
       const int16 is_neighbor = RPF_LANE_NUMBERS < (int)(neighbors - block * RPF_LANES);
       const int16 bins = is_neighbor ? rpf_bin(column[block], RPF_HALF_BINS) : -1;
+#pragma unroll
       for (int bin = 0; bin < RPF_BINS; ++bin) bits[bin] |= as_uint16(bins == bin) & (1u << k);
     }
+#pragma unroll
     for (int bin = 0; bin < RPF_BINS; ++bin)
       store_plane(planes + bin * words + group * RPF_LANES, bits[bin], words, blocks);
   }

@@ -9,9 +9,10 @@
 namespace rpf::kernel {
 #endif
 
-// Index of the first value. Vectors over variables are padded to whole RPF_LANES.
+// Index of the first value.
 typedef struct {
-  uint shift, own_mean, own_deviation, tolerance;        // [padded variables]
+  uint shift;                                            // [variables], padded to whole RPF_LANES
+  uint own_mean, own_deviation, tolerance;               // [features], likewise
   uint mean, inverse_deviation;                          // [variables]
   uint information;                                      // [pairs]
   uint color_weights;                                    // W_c,i^r (3), W_c^r, alpha (3)
@@ -24,13 +25,13 @@ RPF_INLINE uint rpf_pairs(uint random, uint features) { return 3 * (2 + random +
 
 RPF_INLINE rpf_trace_layout rpf_lay_out_trace(uint random, uint features, uint carried, uint own) {
   const uint variables = 5 + random + features;
-  const uint padded = (variables + RPF_LANES - 1) / RPF_LANES * RPF_LANES;
+  const uint padded_features = (features + RPF_LANES - 1) / RPF_LANES * RPF_LANES;
   rpf_trace_layout at;
   at.shift = 0;
-  at.own_mean = at.shift + padded;
-  at.own_deviation = at.own_mean + padded;
-  at.tolerance = at.own_deviation + padded;
-  at.mean = at.tolerance + padded;
+  at.own_mean = at.shift + (variables + RPF_LANES - 1) / RPF_LANES * RPF_LANES;
+  at.own_deviation = at.own_mean + padded_features;
+  at.tolerance = at.own_deviation + padded_features;
+  at.mean = at.tolerance + padded_features;
   at.inverse_deviation = at.mean + variables;
   at.information = at.inverse_deviation + variables;
   at.color_weights = at.information + rpf_pairs(random, features);

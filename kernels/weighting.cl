@@ -52,15 +52,18 @@ static float2 range_of(__global const float16* column, uint blocks) {
 static void block_weights(const Slot* slot, const Coordinates* coordinates, float (*own)[3 + RPF_FEATURES], uint block,
                           uint neighbors, float16* weight) {
   float16 distance[RPF_BATCH];
+#pragma unroll
   for (int i = 0; i < RPF_BATCH; ++i) distance[i] = 0.0f;
   for (uint a = 0; a < coordinates->count; ++a) {
     const float16 value = slot->columns[coordinates->column[a] * slot->blocks + block] * coordinates->scale[a];
+#pragma unroll
     for (int i = 0; i < RPF_BATCH; ++i) {
       const float16 difference = own[i][a] - value;
       distance[i] += difference * difference;
     }
   }
   const int16 is_neighbor = RPF_LANE_NUMBERS < (int)(neighbors - block * RPF_LANES);
+#pragma unroll
   for (int i = 0; i < RPF_BATCH; ++i) weight[i] = is_neighbor ? rpf_weight(distance[i]) : 0.0f;
 }
 
@@ -89,6 +92,7 @@ static void filter_batch(const Slot* slot, const Coordinates* coordinates, uint 
   }
   for (uint block = 0; block < blocks; ++block) {
     block_weights(slot, coordinates, own_value, block, neighbors, weight);
+#pragma unroll
     for (int i = 0; i < RPF_BATCH; ++i) {
       weight_sum[i] += weight[i];
       for (int c = 0; c < RPF_CARRIED; ++c) color_sum[i][c] += weight[i] * slot->colors[c * slot->blocks + block];

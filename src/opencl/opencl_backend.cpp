@@ -10,6 +10,8 @@
 namespace rpf {
 namespace {
 
+constexpr float unlimited = std::numeric_limits<float>::infinity();
+
 /// Work-items for each compute unit of a device that hides latency by switching between them.
 constexpr std::size_t items_per_gpu_unit = 64;
 
@@ -21,23 +23,28 @@ std::size_t work_items(const cl::Device& device, int threads) {
   return units * items_per_gpu_unit;
 }
 
+/// Features up to the last one that can reject a candidate.
+std::size_t rejecting(const Plan& plan) {
+  const auto& tolerance = plan.minimum_tolerance;
+  const auto last = std::find_if(tolerance.rbegin(), tolerance.rend(), [](float a) { return a < unlimited; });
+  return static_cast<std::size_t>(tolerance.rend() - last);
+}
+
 /// The numbers of the plan that are compiled in (frame.cl).
 std::string definitions(const Frame& frame, const Plan& plan) {
   const std::uint32_t most = most_samples(frame.first_sample);
   const bool uniform = std::uint64_t{most} * (frame.first_sample.size() - 1) == frame.sample_count();
   return fmt::format(
-      "-DRPF_VARIABLES={} -DRPF_RANDOM={} -DRPF_FEATURES={} -DRPF_BINS={} -DRPF_CARRIED={} -DRPF_SAMPLES={}",
-      plan.variables.count(), plan.variables.random_names.size(), plan.variables.feature_names.size(),
+      "-DRPF_VARIABLES={} -DRPF_RANDOM={} -DRPF_FEATURES={} -DRPF_REJECTING={} -DRPF_BINS={} -DRPF_CARRIED={} "
+      "-DRPF_SAMPLES={}",
+      plan.variables.count(), plan.variables.random_names.size(), plan.variables.feature_names.size(), rejecting(plan),
       2 * plan.half_bins + 1, plan.carried, uniform ? most : 0);
 }
 
-/// One value a variable, in whole vectors; `other` for what is no feature.
-std::vector<float> per_variable(const Plan& plan, const std::vector<float>& per_feature, float other) {
-  const std::size_t chunks = (plan.variables.count() + RPF_LANES - 1) / RPF_LANES;
-  std::vector<float> result(chunks * RPF_LANES, other);
-  std::copy(per_feature.begin(), per_feature.end(),
-            result.begin() + static_cast<std::ptrdiff_t>(plan.variables.features()));
-  return result;
+/// One value a feature, filled up to whole vectors with what rejects nothing.
+std::vector<float> padded(std::vector<float> per_feature) {
+  per_feature.resize((per_feature.size() + RPF_LANES - 1) / RPF_LANES * RPF_LANES, unlimited);
+  return per_feature;
 }
 
 /// Candidates to draw for a pixel, by its number of samples.
@@ -73,10 +80,9 @@ void OpenClBackend::load(const Frame& frame, std::vector<float> colors, const Pl
   band_.reset();
   tables_.clear();
   on_device("preparing the filter", [&] {
-    const float unlimited = std::numeric_limits<float>::infinity();
     kernel_ = cl::Kernel(session_.program("filter.cl", definitions(frame, plan)), "filter_tile");
-    rejection_factor_ = session_.copy(per_variable(plan, plan.rejection_factor, 0));
-    minimum_tolerance_ = session_.copy(per_variable(plan, plan.minimum_tolerance, unlimited));
+    rejection_factor_ = session_.copy(padded(plan.rejection_factor));
+    minimum_tolerance_ = session_.copy(padded(plan.minimum_tolerance));
     scratch_ = std::make_unique<Scratch>(session_, plan, items_);
   });
 }

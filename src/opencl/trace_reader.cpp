@@ -81,14 +81,13 @@ std::vector<std::uint8_t> TraceReader::bins(const Scratch& scratch, std::uint32_
 
 PixelTrace TraceReader::read(const Scratch& scratch, std::uint32_t neighbors, std::vector<float> colors) {
   const std::size_t variables = plan_.variables.count(), features = feature_count(plan_);
-  const std::uint32_t first_feature = static_cast<std::uint32_t>(plan_.variables.features());
   const std::vector<float> values = session_.read<float>(values_, 0, at_.weights + std::size_t{own_} * neighbors);
   PixelTrace t = empty_trace(pass_, pixel_);
   t.shift = part(values, at_.shift, variables);
   t.neighbors = session_.read<std::uint32_t>(scratch.neighbors, 0, neighbors);
-  t.own_mean = part(values, at_.own_mean + first_feature, features);
-  t.own_deviation = part(values, at_.own_deviation + first_feature, features);
-  t.tolerance = part(values, at_.tolerance + first_feature, features);
+  t.own_mean = part(values, at_.own_mean, features);
+  t.own_deviation = part(values, at_.own_deviation, features);
+  t.tolerance = part(values, at_.tolerance, features);
   t.mean = part(values, at_.mean, variables);
   t.inverse_deviation = part(values, at_.inverse_deviation, variables);
   t.normalized = normalized(scratch, neighbors);

@@ -35,7 +35,7 @@ MUTANTS = [
            "Lanes.TotalIsTheFixedTree", "sums: neighbors are paired instead of halves"),
     Mutant("lane_of_element", ELEMENTWISE, "sum->lane[j % RPF_LANES]", "sum->lane[j / 2 % RPF_LANES]",
            "Lanes.ElementBelongsToItsLaneModuloSixteen", "sums: another lane"),
-    Mutant("hash_constant", NUMERIC, "x = x * 1664525u", "x = x * 1664521u",
+    Mutant("hash_constant", ELEMENTWISE, "x = x * 1664525u", "x = x * 1664521u",
            "Hash.IsThePublishedPcg3d", "random numbers: a constant is off"),
     Mutant("mul_hi", NUMERIC, ">> 32", ">> 31",
            "MulHi.IsTheUpperHalfOfTheProduct", "random numbers: another half of the product"),
@@ -89,7 +89,7 @@ MUTANTS = [
            BOTH + "DependsOnTheSeed/*", "draws: one for all seeds"),
     Mutant("pass_ignored", MATH, "return rpf_hash(seed, pass, pixel);", "return rpf_hash(seed, 0u, pixel);",
            "oracle spp4_thesis draws", "draws: the same in every pass"),
-    Mutant("counters_meet", MATH, "draw * RPF_MAX_ATTEMPTS + attempt", "draw + attempt",
+    Mutant("counters_meet", ELEMENTWISE, "draw * RPF_MAX_ATTEMPTS + attempt", "draw + attempt",
            "oracle spp4_thesis draws", "draws: redraws repeat the next draw"),
     Mutant("history_in_draws", NEIGHBORHOOD, "sampler.draw(number)",
            "sampler.draw(number + static_cast<std::uint32_t>(n.rows.capacity()))",
@@ -105,7 +105,7 @@ MUTANTS = [
            "oracle missing_values own_mean", "rejection: missing values count"),
     Mutant("position_scale_ignored", PLAN, "facts.position_diagonal / settings.position_scale", "facts.position_diagonal",
            "Plan.HasToleranceAndFactorOfEveryFeature", "rejection: a of positions"),
-    Mutant("second_hit_rejects", PLAN, "settings.reject_second_hit || !is_second_hit(name)", "settings.reject_second_hit || !name.empty()",
+    Mutant("second_hit_rejects", PLAN, "settings.reject_second_hit || !is_second_hit(group(name))", "settings.reject_second_hit || !name.empty()",
            "oracle second_hit_keep tolerance", "rejection: second hits take part"),
 
     # ---------------------------------------------------------------- 4. normalization
