@@ -15,6 +15,7 @@ namespace {
 constexpr const char* footer = R"(Examples:
   rpf render.samples.exr -o filtered.exr
   rpf --boxes 21,11,5 --samples-factor 2 --noise 0.002 render.samples.exr -o filtered.png
+  rpf --backend=auto render.samples.exr -o filtered.exr
   rpf info render.samples.exr
   rpf compare before.exr filtered.exr reference.exr --side-by-side picture.png
 
@@ -31,6 +32,7 @@ int run(int argc, char** argv) {
   const Command filter_command = add_filter_command(app);
   const Command info_command = add_info_command(app);
   const Command compare_command = add_compare_command(app);
+  const Command devices_command = add_devices_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -38,6 +40,7 @@ int run(int argc, char** argv) {
   }
   if (app.got_subcommand("info")) return info_command();
   if (app.got_subcommand("compare")) return compare_command();
+  if (app.got_subcommand("devices")) return devices_command();
   return filter_command();
 }
 
