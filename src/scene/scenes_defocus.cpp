@@ -11,7 +11,7 @@ World dof() {
   open_lens(world.camera, 0.14F, 5);
   world.sky = {0.05F, 0.06F, 0.08F};
   add_checkered_floor(world);
-  add_ceiling_light(world, {1, 6, 2}, 3, {22, 21, 19});
+  add_ceiling_light(world, {1.5F, 6, 4.5F}, 3, {24, 23, 21});
   const std::uint32_t red = world.add(plain({0.8F, 0.15F, 0.1F})), blue = world.add(plain({0.1F, 0.25F, 0.7F}));
   const std::uint32_t gold = world.add(metal({0.9F, 0.7F, 0.3F}, 0.25F)), green = world.add(plain({0.15F, 0.6F, 0.2F}));
   const std::uint32_t stripes = world.add(textured({Pattern::checker, {0.9F, 0.85F, 0.2F}, {0.1F, 0.1F, 0.3F}, 8}));
@@ -66,7 +66,7 @@ World dof_hdr() {
   open_lens(world.camera, 0.16F, 4.5F);
   world.scatterings = 1;
   add_checkered_floor(world);
-  add_ceiling_light(world, {0, 7, 2}, 2, {3, 3.2F, 4});
+  add_ceiling_light(world, {0, 7, 2}, 2, {6, 6.4F, 8});
   const std::uint32_t gray = world.add(plain({0.5F, 0.5F, 0.5F}));
   world.add(sphere({-0.5F, 0.5F, 0.5F}, 0.5F, gray));
   world.add(sphere({0.9F, 0.4F, 0}, 0.4F, world.add(metal({0.8F, 0.8F, 0.85F}, 0.15F))));

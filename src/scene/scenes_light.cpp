@@ -109,9 +109,9 @@ World menger() {
   World world = cornell_box();
   Mesh body = sponge();
   body.material = world.add(plain({0.7F, 0.65F, 0.5F}));
-  constexpr float size = 1.2F;
+  constexpr float size = 1.1F;
   for (Vertex& vertex : body.vertices) vertex.position = vertex.position - Vec3{4.5F, 0, 4.5F};
-  place(body, size / 9, 0.55F, {0, 0.02F, 0});
+  place(body, size / 9, 0.55F, {0, 0.02F, -0.2F});
   world.meshes.push_back(body);
   return world;
 }

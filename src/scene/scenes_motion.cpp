@@ -45,7 +45,7 @@ World combined() {
   world.sky = {0.05F, 0.06F, 0.08F};
   world.scatterings = 1;
   add_checkered_floor(world);
-  add_ceiling_light(world, {1.5F, 5, 2}, 3, {18, 17, 16});
+  add_ceiling_light(world, {1.5F, 5, 3.5F}, 3, {18, 17, 16});
   const std::uint32_t checks = world.add(textured({Pattern::checker, {0.85F, 0.8F, 0.2F}, {0.15F, 0.1F, 0.3F}, 4}));
   const std::uint32_t red = world.add(plain({0.8F, 0.15F, 0.1F})), blue = world.add(plain({0.1F, 0.3F, 0.75F}));
   world.add(moving(sphere({-0.9F, 0.9F, 2.6F}, 0.22F, red), {0.25F, 0.1F, 0}));  // near: blurred by lens and motion

@@ -12,10 +12,10 @@ World column() {
   add_ceiling_light(world, {0.4F, 5, 4}, 2, {28, 26, 23});
   const std::uint32_t bricks = world.add(textured({Pattern::bricks, {0.6F, 0.35F, 0.25F}, {0.8F, 0.78F, 0.7F}, 9}));
   world.add(Rectangle{{-12, 0, -3}, {24, 0, 0}, {0, 6, 0}}, world.add(plain({0.5F, 0.52F, 0.55F})));
-  // The corner points to the camera; the right side's normal points inwards: its edges are exchanged.
+  // The corner points to the camera; the right side's normal points inwards: it is seen from behind.
   const Vec3 corner = {0, 0, 0.8F}, height = {0, 2.6F, 0};
   world.add(Rectangle{corner - Vec3{0.8F, 0, 0.8F}, {0.8F, 0, 0.8F}, height}, bricks);
-  world.add(Rectangle{corner, height, {0.8F, 0, -0.8F}}, bricks);
+  world.add(Rectangle{corner + Vec3{0.8F, 0, -0.8F}, {-0.8F, 0, 0.8F}, height}, bricks);
   return world;
 }
 
@@ -26,7 +26,7 @@ World random_texture() {
   world.scatterings = 1;
   add_floor(world, {Pattern::grain, {0.1F, 0.1F, 0.1F}, {0.9F, 0.85F, 0.8F}, 1200});
   add_ceiling_light(world, {-1, 5, 2}, 2.5F, {20, 19, 17});
-  const std::uint32_t grain = world.add(textured({Pattern::grain, {0.7F, 0.1F, 0.1F}, {0.2F, 0.3F, 0.9F}, 160}));
+  const std::uint32_t grain = world.add(textured({Pattern::grain, {0.7F, 0.1F, 0.1F}, {0.2F, 0.3F, 0.9F}, 90}));
   world.add(sphere({-0.8F, 0.6F, 0}, 0.6F, grain));
   world.add(box({0.9F, 0.5F, -0.3F}, {0.5F, 0.5F, 0.5F}, grain));
   return world;

@@ -71,7 +71,7 @@ World cornell_box() {
   world.add(Rectangle{{-side, 0, -1}, {2 * side, 0, 0}, {0, 2, 0}}, white);  // back
   world.add(Rectangle{{-side, 0, 1}, {0, 0, -2}, {0, 2, 0}}, red);           // left
   world.add(Rectangle{{side, 0, -1}, {0, 0, 2}, {0, 2, 0}}, green);          // right
-  add_ceiling_light(world, {0, 1.99F, 0}, 0.7F, {17, 14, 10});
+  add_ceiling_light(world, {0, 1.99F, 0.5F}, 0.7F, {17, 14, 10});
   return world;
 }
 
