@@ -8,6 +8,7 @@
 #include "rpf/io.h"
 #include "rpf/metrics.h"
 #include "rpf/samples.h"
+#include "rpf/scene.h"
 #include "rpf/settings.h"
 #include "rpf/srgb.h"
 #include "rpf/version.h"

@@ -15,15 +15,17 @@ ROOMS = {
     "src/opencl": API | {"src", "kernels"},
     "src/io": API,
     "src/metrics": API,
+    "src/scene": API,
     "src/cli": API,
     "examples": API,
     "bench": API | {"src", "src/cpu"},
-    "tests": API | {"src", "src/cpu", "src/opencl", "src/io", "kernels"},
+    "tests": API | {"src", "src/cpu", "src/opencl", "src/io", "src/scene", "kernels"},
 }
 # Third-party headers, each in one room only (beside the tests).
 LIBRARIES = {
     "OpenEXR/": {"src/io"}, "Imf": {"src/io"}, "OpenImageIO/": {"src/io"}, "CL/": {"src/opencl"}, "CLI/": {"src/cli"},
-    "tbb/": {"src/cpu"}, "fmt/": {"src", "src/opencl", "src/io", "src/metrics", "src/cli"}, "nlohmann/": {"src/cli"}, "benchmark/": {"bench"},
+    "embree3/": {"src/scene"}, "tbb/": {"src/cpu", "src/scene"}, "nlohmann/": {"src/cli"}, "benchmark/": {"bench"},
+    "fmt/": {"src", "src/opencl", "src/io", "src/metrics", "src/scene", "src/cli"},
 }
 # The one place that knows all backends.
 EXCEPTIONS = {("src/backends.cpp", "src/cpu"), ("src/backends.cpp", "src/opencl")}
