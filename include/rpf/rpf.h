@@ -1,6 +1,7 @@
 // Everything.
 #pragma once
 
+#include "rpf/conformance.h"
 #include "rpf/devices.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"

@@ -9,10 +9,11 @@ namespace rpf::cli {
 /// Runs a command; returns the exit code.
 using Command = std::function<int()>;
 
-Command add_filter_command(CLI::App& app);   ///< rpf INPUT -o OUTPUT
-Command add_info_command(CLI::App& app);     ///< rpf info FILE
-Command add_compare_command(CLI::App& app);  ///< rpf compare IMAGE... REFERENCE
-Command add_devices_command(CLI::App& app);  ///< rpf devices
-Command add_scene_command(CLI::App& app);    ///< rpf scene NAME -o FILE
+Command add_filter_command(CLI::App& app);    ///< rpf INPUT -o OUTPUT
+Command add_info_command(CLI::App& app);      ///< rpf info FILE
+Command add_compare_command(CLI::App& app);   ///< rpf compare IMAGE... REFERENCE
+Command add_devices_command(CLI::App& app);   ///< rpf devices
+Command add_scene_command(CLI::App& app);     ///< rpf scene NAME -o FILE
+Command add_selftest_command(CLI::App& app);  ///< rpf selftest
 
 }  // namespace rpf::cli

@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
       {"compare", add_compare_command(app)},
       {"scene", add_scene_command(app)},
       {"devices", add_devices_command(app)},
+      {"selftest", add_selftest_command(app)},
   };
   try {
     app.parse(argc, argv);

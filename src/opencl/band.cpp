@@ -13,14 +13,25 @@ std::uint64_t record_bytes(const Frame& frame, std::uint64_t samples) {
   return (samples * frame.variables + RPF_LANES) * sizeof(float);  // vector loads may reach behind the last record
 }
 
+std::uint64_t color_bytes(std::uint64_t samples, std::size_t carried) { return samples * carried * sizeof(float); }
+
+std::uint64_t sample_count(const Frame& frame, const Rows& rows) {
+  return frame.first_sample[pixel_number(frame, rows.end)] - frame.first_sample[pixel_number(frame, rows.begin)];
+}
+
 }  // namespace
 
-bool fits(const Frame& frame, std::size_t carried, const Rows& rows, const BandLimit& limit) {
-  const std::size_t begin = pixel_number(frame, rows.begin), end = pixel_number(frame, rows.end);
-  const std::uint64_t pixels = end - begin, samples = frame.first_sample[end] - frame.first_sample[begin];
-  const std::uint64_t records = record_bytes(frame, samples), colors = samples * carried * sizeof(float);
+std::uint64_t band_bytes(const Frame& frame, std::size_t carried, const Rows& rows) {
+  const std::size_t pixels = pixel_number(frame, rows.end) - pixel_number(frame, rows.begin);
   const std::uint64_t per_pixel = (pixels + 1) * sizeof(std::uint32_t) + pixels * sizeof(kernel::rpf_pixel_statistics);
-  return records + 2 * colors + per_pixel <= limit.total && std::max(records, colors) <= limit.buffer;
+  return record_bytes(frame, sample_count(frame, rows)) + 2 * color_bytes(sample_count(frame, rows), carried) +
+         per_pixel;
+}
+
+bool fits(const Frame& frame, std::size_t carried, const Rows& rows, const BandLimit& limit) {
+  const std::uint64_t samples = sample_count(frame, rows);
+  return band_bytes(frame, carried, rows) <= limit.total &&
+         std::max(record_bytes(frame, samples), color_bytes(samples, carried)) <= limit.buffer;
 }
 
 Rows rows_that_fit(const Frame& frame, std::size_t carried, const Rows& needed, const BandLimit& limit) {
@@ -36,8 +47,8 @@ Rows rows_that_fit(const Frame& frame, std::size_t carried, const Rows& needed, 
 Band make_band(Session& session, const BandSource& source, int pass, const Rows& rows) {
   const Frame& frame = source.frame;
   const std::size_t begin = pixel_number(frame, rows.begin), end = pixel_number(frame, rows.end);
-  const std::size_t first = frame.first_sample[begin], samples = frame.first_sample[end] - first;
-  const std::size_t color_bytes = samples * source.carried * sizeof(float);
+  const std::size_t first = frame.first_sample[begin], samples = sample_count(frame, rows);
+  const std::size_t colors = color_bytes(samples, source.carried);
   Band band;
   band.pass = pass;
   band.rows = rows;
@@ -46,9 +57,8 @@ Band make_band(Session& session, const BandSource& source, int pass, const Rows&
   band.first_samples = session.host_buffer(frame.first_sample.data() + begin, (end - begin + 1) * sizeof(std::uint32_t),
                                            CL_MEM_READ_ONLY);
   band.records = session.host_buffer(frame.record(first), record_bytes(frame, samples), CL_MEM_READ_ONLY);
-  band.colors = session.host_buffer(source.colors.data() + first * source.carried, color_bytes, CL_MEM_READ_ONLY);
-  band.next_colors =
-      session.host_buffer(source.next_colors.data() + first * source.carried, color_bytes, CL_MEM_READ_WRITE);
+  band.colors = session.host_buffer(source.colors.data() + first * source.carried, colors, CL_MEM_READ_ONLY);
+  band.next_colors = session.host_buffer(source.next_colors.data() + first * source.carried, colors, CL_MEM_READ_WRITE);
   band.statistics = session.host_buffer(source.statistics.data() + begin,
                                         (end - begin) * sizeof(kernel::rpf_pixel_statistics), CL_MEM_READ_WRITE);
   return band;

@@ -42,6 +42,9 @@ struct BandLimit {
   std::uint64_t total = 0, buffer = 0;
 };
 
+/// Bytes of the buffers of these rows.
+std::uint64_t band_bytes(const Frame& frame, std::size_t carried, const Rows& rows);
+
 /// Whether these rows can be on the device at once.
 bool fits(const Frame& frame, std::size_t carried, const Rows& rows, const BandLimit& limit);
 

@@ -13,6 +13,7 @@ ROOMS = {
     "src": API | {"kernels"},                 # the driver: no device, no file format
     "src/cpu": API | {"src", "kernels"},
     "src/opencl": API | {"src", "kernels"},
+    "src/conformance": API | {"src", "src/cpu", "src/opencl", "kernels"},
     "src/io": API,
     "src/metrics": API,
     "src/scene": API,
@@ -24,8 +25,8 @@ ROOMS = {
 # Third-party headers, each in one room only (beside the tests).
 LIBRARIES = {
     "OpenEXR/": {"src/io"}, "Imf": {"src/io"}, "OpenImageIO/": {"src/io"}, "CL/": {"src/opencl"}, "CLI/": {"src/cli"},
-    "embree3/": {"src/scene"}, "tbb/": {"src/cpu", "src/scene"}, "nlohmann/": {"src/cli"}, "benchmark/": {"bench"},
-    "fmt/": {"src", "src/opencl", "src/io", "src/metrics", "src/scene", "src/cli"},
+    "embree3/": {"src/scene"}, "tbb/": {"src/cpu", "src/scene"}, "nlohmann/": {"src/cli", "src/conformance"}, "benchmark/": {"bench"},
+    "fmt/": {"src", "src/opencl", "src/conformance", "src/io", "src/metrics", "src/scene", "src/cli"},
 }
 # The one place that knows all backends.
 EXCEPTIONS = {("src/backends.cpp", "src/cpu"), ("src/backends.cpp", "src/opencl")}

@@ -1,6 +1,6 @@
 """Proof that every check can fail: breaks the source in one small place after the other and runs the check meant for it.
 
-    python3 mutate.py PROJECT [--only NAME] [--work DIR]
+    python3 mutate.py PROJECT [--only PREFIX] [--work DIR]
 
 Works on a copy of the project. With --work the copy and its build are kept and reused. Needs about half an hour on one core.
 Exit status 0: every mutant was killed; 1: a mutant survived, is out of date or does not compile.
@@ -14,8 +14,10 @@ import time
 from pathlib import Path
 
 sys.dont_write_bytecode = True      # the source folder stays clean
-from mutants import MUTANTS
+from mutants import MUTANTS as REFERENCE_MUTANTS
+from opencl_mutants import MUTANTS as OPENCL_MUTANTS
 
+MUTANTS = REFERENCE_MUTANTS + OPENCL_MUTANTS
 LEFT_OUT = {".git", "build", "demo", "__pycache__"}
 # -O1 compiles fast; -w because a mutant may leave a variable unused, and the project makes warnings errors.
 CONFIGURE = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG -w",
@@ -76,13 +78,31 @@ def build(work, targets):
 
 
 def is_oracle(test):
-    """Oracle tests are written "oracle CASE STAGE", all others are filters of rpf_unit_tests."""
+    """Oracle tests are written "oracle CASE STAGE"; tests of neither kind are filters of rpf_unit_tests."""
     return test.startswith("oracle ")
+
+
+def is_conformance(test):
+    """Conformance tests are written "conformance CASE STAGE", with _ for a blank in the stage."""
+    return test.startswith("conformance ")
 
 
 def target_of(test):
     """The program that the test runs."""
-    return "rpf_trace" if is_oracle(test) else "rpf_unit_tests"
+    return "rpf_command" if is_conformance(test) else "rpf_trace" if is_oracle(test) else "rpf_unit_tests"
+
+
+def run_conformance(work, case):
+    """Exit status and output of the comparison of a device with the reference on some cases."""
+    return run([work / "build" / "rpf", "selftest", "--full", "--filter", case], TEST_TIMEOUT)
+
+
+def conformance_verdict(work, test):
+    """Killed where the first stage that differs is the one named; "device": where the device's own test fails."""
+    _, case, stage = test.split()
+    status, output = run_conformance(work, case)
+    found = status == 5 if stage == "device" else status == 1 and f": {stage.replace('_', ' ')}[" in output.splitlines()[0]
+    return KILLED if found else SURVIVED
 
 
 def run_oracle(work, case):
@@ -104,6 +124,8 @@ def reported_state(output, stage):
 
 def passes(work, test):
     """Whether the check is there, was reached and found nothing."""
+    if is_conformance(test):
+        return run_conformance(work, test.split()[1])[0] == 0
     if is_oracle(test):
         _, case, stage = test.split()
         status, output = run_oracle(work, case)
@@ -114,6 +136,8 @@ def passes(work, test):
 
 def verdict(work, test):
     """Whether the check failed, for an oracle test in the stage it names; a crash of the unit tests counts."""
+    if is_conformance(test):
+        return conformance_verdict(work, test)
     if not is_oracle(test):
         return KILLED if run_unit(work, test)[0] != 0 else SURVIVED
     _, case, stage = test.split()
@@ -180,22 +204,23 @@ def chosen(only):
     """The mutants to try."""
     names = [m.name for m in MUTANTS]
     assert len(set(names)) == len(names), "a name appears twice in mutants.py"
-    if only and only not in names:
+    found = [m for m in MUTANTS if m.name.startswith(only or "")]
+    if not found:
         sys.exit(f"no mutant '{only}'; there are: {', '.join(names)}")
-    return [m for m in MUTANTS if only in (None, m.name)]
+    return found
 
 
 def mutate(project, work, mutants):
     """The number of mutants killed, after copying and building the project."""
     copy_project(project, work / "source")
-    build(work, ["rpf_unit_tests", "rpf_trace"])
+    build(work, sorted({target_of(mutant.test) for mutant in mutants}))
     return try_all(work, mutants)
 
 
 def main():
     parser = argparse.ArgumentParser(description="Breaks the source on purpose and sees whether the tests notice.")
     parser.add_argument("project", type=Path, help="folder of the project")
-    parser.add_argument("--only", metavar="NAME", help="try one mutant")
+    parser.add_argument("--only", metavar="PREFIX", help="try the mutants whose name begins like this")
     parser.add_argument("--work", type=Path, metavar="DIR", help="folder for the copy and its build, kept afterwards")
     options = parser.parse_args()
     mutants = chosen(options.only)

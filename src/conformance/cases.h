@@ -1,0 +1,27 @@
+// The frames and settings that a device is compared on.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "rpf/samples.h"
+#include "rpf/scene.h"
+#include "rpf/settings.h"
+
+namespace rpf {
+
+struct ConformanceCase {
+  std::string name;  ///< group/what/profile
+  std::string scene;
+  SceneOptions options;
+  Settings settings;
+  std::function<void(SampleBuffer&)> change;  ///< done to the samples before they are filtered; may be empty
+  int band_rows = 0;                          ///< rows that the device may hold at once; 0: all
+  bool quick = false;                         ///< among the cases of a short test
+};
+
+/// All of them.
+std::vector<ConformanceCase> all_conformance_cases();
+
+}  // namespace rpf

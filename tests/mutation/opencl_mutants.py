@@ -1,0 +1,81 @@
+"""Mutants of the OpenCL kernels: at least one for every stage that the conformance suite compares.
+
+The test "conformance CASE STAGE" demands that STAGE is the first one in which device and reference differ; "device" means
+that the device's self-test refuses it.
+"""
+from mutants import Mutant
+
+NUMERIC = "kernels/numeric.h"
+NEIGHBORHOOD, STATISTICS = "kernels/neighborhood.cl", "kernels/statistics.cl"
+WEIGHTING, FILTER = "kernels/weighting.cl", "kernels/filter.cl"
+DOF, PAPER = "conformance scene/dof/thesis ", "conformance scene/dof/paper "
+
+MUTANTS = [
+    Mutant("cl_contraction", NUMERIC, "#pragma OPENCL FP_CONTRACT OFF", "#pragma OPENCL FP_CONTRACT ON",
+           DOF + "device", "a * b + c in one rounding"),
+
+    # ---------------------------------------------------------------- 3. neighborhood
+    Mutant("cl_shift", NEIGHBORHOOD, "rpf_or_zero(load_record(frame, pass, first, RPF_LANES * c))",
+           "rpf_or_zero(load_record(frame, pass, first + own - 1, RPF_LANES * c))", DOF + "shift", "another sample's values"),
+    Mutant("cl_own_mean", NEIGHBORHOOD, "count == 0 ? 0.0f : rpf_lanes_total(&sum) / number;",
+           "count == 0 ? 0.0f : rpf_lanes_total(&sum) / (number + 1.0f);", DOF + "own_mean", "one sample too many"),
+    Mutant("cl_own_deviation", NEIGHBORHOOD, "sqrt(rpf_lanes_total(&sum) / number)", "sqrt(rpf_lanes_total(&sum) / (number - 1.0f))",
+           DOF + "own_deviation", "n - 1"),
+    Mutant("cl_tolerance", NEIGHBORHOOD, "count == 0 ? INFINITY : tolerance;", "tolerance;",
+           "conformance extreme/missing-feature tolerance", "a feature that no own sample has"),
+    Mutant("cl_attempt", NEIGHBORHOOD, "begin + as_uint16(RPF_LANE_NUMBERS), 0)", "begin + as_uint16(RPF_LANE_NUMBERS), 1)",
+           DOF + "neighbors", "draws: the first attempt is left out"),
+    Mutant("cl_redraw", NEIGHBORHOOD, "attempt = 1; attempt < pass->attempts", "attempt = 1; attempt + 1 < pass->attempts",
+           "conformance redraws/1 neighbors", "draws: an attempt less"),
+    Mutant("cl_border", NEIGHBORHOOD, "to_x >= pass->width", "to_x > pass->width",
+           DOF + "neighbors", "draws: a column behind the image"),
+    Mutant("cl_rejection", NEIGHBORHOOD, "const int2 c = b.lo | b.hi;\n  return (c.x | c.y) != 0;", "const int2 c = b.lo | b.hi;\n  return c.x != 0;",
+           DOF + "neighbors", "rejection: every other feature"),
+
+    # ---------------------------------------------------------------- 4. normalization
+    Mutant("cl_mean", STATISTICS, "moments.x = lanes_total(sum) / (float)count;", "moments.x = lanes_total(sum) / (float)(count + 1);",
+           DOF + "mean", "one neighbor too many"),
+    Mutant("cl_missing", STATISTICS, "present += rpf_is_missing(value) ? 0 : 1;", "present += 1;",
+           "conformance extreme/nan-feature mean", "missing values count"),
+    Mutant("cl_flat", STATISTICS, "magnitude = fabs(value + shift);", "magnitude = fabs(value);",
+           "conformance world/offset1e+07 deviation", "spread is compared with shifted values"),
+    Mutant("cl_normalized", STATISTICS, "rpf_normalize(column[b], moments.x, moments.y)", "rpf_normalize(column[b], 0.0f, moments.y)",
+           DOF + "normalized", "mean is not 0"),
+
+    # ---------------------------------------------------------------- 5. mutual information and weights
+    Mutant("cl_fold", STATISTICS, "bits.lo | bits.hi << blocks", "bits.lo | bits.hi << (blocks - 1)",
+           "conformance max-samples/65 bins", "bit planes: lanes overlap"),
+    Mutant("cl_group", STATISTICS, "planes + bin * words + group * RPF_LANES", "planes + bin * words",
+           "conformance max-samples/1025 bins", "bit planes: the last 512 neighbors only"),
+    Mutant("cl_mask", STATISTICS, "is_neighbor ? rpf_bin(column[block], RPF_HALF_BINS) : -1", "rpf_bin(column[block], RPF_HALF_BINS)",
+           "conformance max-samples/17 histograms", "bit planes: what is no neighbor counts"),
+    Mutant("cl_margin", STATISTICS, "left[last_y] -= rest;", "", DOF + "histograms", "histograms: the last column"),
+    Mutant("cl_information", STATISTICS, "joint - margin[x] - margin[y] + all", "joint - margin[x] - margin[y] - all",
+           DOF + "information", "sign of N ln N"),
+    Mutant("cl_bias", STATISTICS, "pass->nats_per_unit, pass->information_bias,", "pass->nats_per_unit, 0.0f,",
+           "conformance bias-correction information", "correction ignored"),
+    Mutant("cl_w", FILTER, "rpf_weigh_dependencies(information, RPF_RANDOM, RPF_FEATURES, pass->alpha_factor",
+           "information[0] = 0.0f;\n  rpf_weigh_dependencies(information, RPF_RANDOM, RPF_FEATURES, pass->alpha_factor",
+           DOF + "W", "a pair is lost"),
+    Mutant("cl_alpha", FILTER, "RPF_FEATURES, pass->alpha_factor, pass->growth", "RPF_FEATURES, 1.0f, pass->growth",
+           DOF + "alpha", "factor ignored"),
+    Mutant("cl_beta", FILTER, "RPF_FEATURES, pass->alpha_factor, pass->growth", "RPF_FEATURES, pass->alpha_factor, 1.0f",
+           "conformance alpha-factor/0 beta", "growth ignored"),
+
+    # ---------------------------------------------------------------- 6., 7. filter and outliers
+    Mutant("cl_distance", WEIGHTING, "distance[i] += difference * difference;", "distance[i] += fabs(difference);",
+           DOF + "weights", "distance is not squared"),
+    Mutant("cl_batch", WEIGHTING, "min(begin + i, own - 1)", "min(i, own - 1)",
+           "conformance samples/dof/8spp weights", "the second four samples are the first"),
+    Mutant("cl_weight_mask", WEIGHTING, "is_neighbor ? rpf_weight(distance[i]) : 0.0f", "rpf_weight(distance[i])",
+           "conformance max-samples/17 filtered", "what is no neighbor has a weight"),
+    Mutant("cl_hull", WEIGHTING, "range[c].x, range[c].y)", "-INFINITY, INFINITY)",
+           "conformance scene/ filtered", "held in no range"),
+    Mutant("cl_outliers", FILTER, "if (pass->outlier_step) replace_outliers(out, own);", "", PAPER + "colors", "no outlier step"),
+    Mutant("cl_energy", WEIGHTING, "filtered[i * RPF_CARRIED + c] += taken;", "filtered[i * RPF_CARRIED + c] -= taken;",
+           PAPER + "colors", "energy of the outliers"),
+    Mutant("cl_items", FILTER, "i += (uint)get_global_size(0)", "i += (uint)get_global_size(0) + 1",
+           DOF + "statistics", "pixels are left out"),
+    Mutant("cl_statistics", FILTER, "statistics.beta = rpf_mean(weights.beta, RPF_FEATURES);", "statistics.beta = weights.beta[0];",
+           DOF + "statistics", "one feature instead of the mean"),
+]
