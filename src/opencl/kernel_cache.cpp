@@ -1,15 +1,15 @@
 #include "opencl/kernel_cache.h"
 
-#include <elf.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
 #include <string>
 #include <system_error>
+
+#include "opencl/cache_seal.h"
 
 namespace rpf {
 namespace {
@@ -63,27 +63,10 @@ class PrivateFolder {
   fs::path path_;
 };
 
-/// A shared object ends with its section headers, so a truncated one lacks them.
-bool is_whole_shared_object(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  Elf64_Ehdr header{};
-  file.read(reinterpret_cast<char*>(&header), sizeof header);
-  if (!file || std::string(reinterpret_cast<const char*>(header.e_ident), SELFMAG) != ELFMAG) return false;
-  std::error_code failed;
-  const std::uintmax_t size = fs::file_size(path, failed);
-  return !failed && header.e_shoff + std::uintmax_t{header.e_shnum} * header.e_shentsize <= size;
-}
-
-/// PoCL loads a damaged kernel without a look and dies of it. Files of the last seconds may be still in the making.
-void remove_damaged_kernels(const fs::path& folder) {
-  constexpr auto settled = std::chrono::seconds(10);
-  std::error_code failed;
-  for (fs::recursive_directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
-    if (entry->path().extension() != ".so") continue;
-    const auto age = fs::file_time_type::clock::now() - entry->last_write_time(failed);
-    if (failed || age < settled || is_whole_shared_object(entry->path())) continue;
-    fs::remove(entry->path(), failed);
-  }
+/// The folder that is in use; empty where it is not ours.
+fs::path& our_folder() {
+  static fs::path folder;
+  return folder;
 }
 
 void prepare() {
@@ -94,7 +77,8 @@ void prepare() {
     folder = own.path();
   }
   if (folder.empty()) return;  // PoCL's own default is as good as anything then
-  remove_damaged_kernels(folder);
+  our_folder() = folder;
+  clean_cache(folder);
   setenv("POCL_CACHE_DIR", folder.c_str(), 1);
 }
 
@@ -103,6 +87,10 @@ void prepare() {
 void prepare_kernel_cache() {
   static std::once_flag once;
   std::call_once(once, prepare);
+}
+
+void keep_compiled_kernels() {
+  if (!our_folder().empty()) seal_cache(our_folder());
 }
 
 }  // namespace rpf

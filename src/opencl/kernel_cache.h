@@ -9,4 +9,7 @@ namespace rpf {
 /// before any OpenCL function.
 void prepare_kernel_cache();
 
+/// Records what was compiled, so that later damage is noticed. Call it after a new kernel ran for the first time.
+void keep_compiled_kernels();
+
 }  // namespace rpf

@@ -160,8 +160,7 @@ void OpenClBackend::launch(int pass, const Window& tile, const Band& band, std::
   cl_uint number = 0;
   for (const cl::Buffer* buffer : buffers) kernel_.setArg(number++, *buffer);
   kernel_.setArg(number, arguments(pass, tile, band));
-  session_.queue().enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(items), cl::NDRange(1));
-  session_.queue().finish();
+  session_.launch(kernel_, items, 1);
 }
 
 void OpenClBackend::run(int pass, const Window& tile) {

@@ -53,8 +53,7 @@ std::string self_test(Session& session) {
     const cl::Buffer buffers[] = {session.copy(a), session.copy(b), session.copy(c),
                                   session.buffer(cases * results * sizeof(float))};
     for (cl_uint i = 0; i < std::size(buffers); ++i) kernel.setArg(i, buffers[i]);
-    session.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(cases), cl::NDRange(RPF_LANES));
-    session.queue().finish();
+    session.launch(kernel, cases, RPF_LANES);
     const std::vector<float> device = session.read<float>(buffers[3], 0, cases * results);
     for (kernel::uint i = 0; i < cases; ++i) {
       const std::vector<float> host = expected(a[i], b[i], c[i], i);

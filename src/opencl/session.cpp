@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <mutex>
 
 #include "opencl/kernel_cache.h"
 #include "opencl/kernel_source.h"
@@ -128,6 +129,12 @@ const cl::Program& Session::program(const std::string& file, const std::string& 
                             program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_)));
   }
   return programs_.emplace(key, program).first->second;
+}
+
+void Session::launch(const cl::Kernel& kernel, std::size_t items, std::size_t group) {
+  queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(group));
+  queue_.finish();
+  if (launched_.insert(kernel.getInfo<CL_KERNEL_PROGRAM>()()).second) keep_compiled_kernels();
 }
 
 cl::Buffer Session::host_buffer(const void* data, std::size_t bytes, cl_mem_flags access) {

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <map>
-#include <memory>
-#include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,11 +41,13 @@ class Session {
   explicit Session(cl::Device device);
   const cl::Device& device() const { return device_; }
   const cl::Context& context() const { return context_; }
-  cl::CommandQueue& queue() { return queue_; }
 
   /// A program from kernels/`file`, compiled with these definitions ("-D..."), or what an earlier call compiled. Throws
   /// Error(device) with the build log.
   const cl::Program& program(const std::string& file, const std::string& definitions);
+
+  /// Runs a kernel over so many work-items in groups, and waits for it. PoCL compiles at the first launch.
+  void launch(const cl::Kernel& kernel, std::size_t items, std::size_t group);
 
   /// A buffer that is the host's own memory where the device can do that. `bytes` 0 makes a small one.
   cl::Buffer host_buffer(const void* data, std::size_t bytes, cl_mem_flags access);
@@ -75,6 +76,7 @@ class Session {
   cl::Context context_;
   cl::CommandQueue queue_;
   std::map<std::string, cl::Program> programs_;
+  std::set<cl_program> launched_;  ///< programs of which a kernel ran
 };
 
 }  // namespace rpf
