@@ -110,8 +110,8 @@ __kernel void filter_tile(__global const uint* first_sample, __global const floa
                      blocks};
   const uint pixels = (uint)(pass.tile_width * pass.tile_height);
   for (uint i = (uint)item; i < pixels; i += (uint)get_global_size(0)) {
-    const uint x = (uint)pass.tile_x + i % (uint)pass.tile_width, y = (uint)pass.tile_y + i / (uint)pass.tile_width;
-    const uint pixel = y * (uint)pass.width + x;
+    const uint row = i / (uint)pass.tile_width, column = i - row * (uint)pass.tile_width;
+    const uint pixel = ((uint)pass.tile_y + row) * (uint)pass.width + (uint)pass.tile_x + column;
     const uint first = first_sample_of(&frame, &pass, pixel);
     trace.at = rpf_lay_out_trace(RPF_RANDOM, RPF_FEATURES, RPF_CARRIED, samples_of(&frame, &pass, pixel));
     statistics[pixel - pass.first_pixel] =

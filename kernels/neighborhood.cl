@@ -82,7 +82,7 @@ static uint draw_again(const Frame* frame, const rpf_pass* pass, rpf_words key, 
 // Fills slot->candidates; returns their number. The words of RPF_LANES draws are made at once.
 static uint draw_candidates(const Frame* frame, const rpf_pass* pass, uint pixel, uint own, const Slot* slot) {
   const rpf_words key = rpf_draw_key(pass->seed, pass->pass, pixel);
-  const int x = (int)(pixel % (uint)pass->width), y = (int)(pixel / (uint)pass->width);
+  const int y = (int)(pixel / (uint)pass->width), x = (int)pixel - y * pass->width;
   const uint draws = frame->draws[own];
   uint count = 0;
   for (uint begin = 0; begin < draws; begin += RPF_LANES) {

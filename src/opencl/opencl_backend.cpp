@@ -192,9 +192,10 @@ void OpenClBackend::collect(const Window& tile, const Band& band) {
   const std::size_t end = static_cast<std::size_t>(tile.y + tile.height - 1) * plan_->width + tile.x + tile.width;
   const std::size_t color = plan_->carried * sizeof(float);
   const std::size_t first = frame_->first_sample[begin], last = frame_->first_sample[end];
-  session_.read_back(band.next_colors, (first - band.first_sample) * color, (last - first) * color);
+  session_.read_back(band.next_colors, (first - band.first_sample) * color, (last - first) * color,
+                     next_colors_.data() + band.first_sample * plan_->carried);
   session_.read_back(band.statistics, (begin - band.first_pixel) * sizeof(PixelStatistics),
-                     (end - begin) * sizeof(PixelStatistics));
+                     (end - begin) * sizeof(PixelStatistics), statistics_.data() + band.first_pixel);
 }
 
 void OpenClBackend::end_pass() {

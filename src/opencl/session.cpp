@@ -134,21 +134,30 @@ const cl::Program& Session::program(const std::string& file, const std::string& 
 void Session::launch(const cl::Kernel& kernel, std::size_t items, std::size_t group) {
   queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(group));
   queue_.finish();
+  canaries_.check(queue_);
   if (launched_.insert(kernel.getInfo<CL_KERNEL_PROGRAM>()()).second) keep_compiled_kernels();
 }
 
+cl::Buffer Session::copy_of(const void* data, std::size_t bytes) {
+  cl::Buffer result = buffer(std::max<std::size_t>(bytes, sizeof(float)));
+  if (bytes > 0) queue_.enqueueWriteBuffer(result, CL_TRUE, 0, bytes, data);
+  return result;
+}
+
 cl::Buffer Session::host_buffer(const void* data, std::size_t bytes, cl_mem_flags access) {
-  if (bytes == 0) return buffer(sizeof(float));
+  if (has_canaries || bytes == 0) return copy_of(data, bytes);
   return cl::Buffer(context_, access | CL_MEM_USE_HOST_PTR, bytes, const_cast<void*>(data));
 }
 
-void Session::read_back(const cl::Buffer& buffer, std::size_t offset, std::size_t bytes) {
+void Session::read_back(const cl::Buffer& buffer, std::size_t offset, std::size_t bytes, void* data) {
   if (bytes == 0) return;
+  if (has_canaries) {
+    queue_.enqueueReadBuffer(buffer, CL_TRUE, offset, bytes, static_cast<char*>(data) + offset);
+    return;
+  }
   void* mapped = queue_.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_READ, offset, bytes);
   queue_.enqueueUnmapMemObject(buffer, mapped);
   queue_.finish();
 }
-
-cl::Buffer Session::buffer(std::size_t bytes) { return cl::Buffer(context_, CL_MEM_READ_WRITE, bytes); }
 
 }  // namespace rpf

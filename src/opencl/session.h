@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "opencl/canaries.h"
 #include "opencl/opencl.h"
 #include "rpf/error.h"
 
@@ -49,12 +50,18 @@ class Session {
   /// Runs a kernel over so many work-items in groups, and waits for it. PoCL compiles at the first launch.
   void launch(const cl::Kernel& kernel, std::size_t items, std::size_t group);
 
-  /// A buffer that is the host's own memory where the device can do that. `bytes` 0 makes a small one.
-  cl::Buffer host_buffer(const void* data, std::size_t bytes, cl_mem_flags access);
   /// A buffer of the device's own.
-  cl::Buffer buffer(std::size_t bytes);
-  /// Makes bytes that a kernel wrote into a host_buffer() visible in the host's memory.
-  void read_back(const cl::Buffer& buffer, std::size_t offset, std::size_t bytes);
+  cl::Buffer buffer(std::size_t bytes) { return canaries_.allocate(context_, queue_, CL_MEM_READ_WRITE, bytes); }
+  /// A buffer that is the host's own memory where the device can do that, else a copy; `bytes` 0 makes a small one.
+  /// Debug builds always copy, as a device with memory of its own does.
+  cl::Buffer host_buffer(const void* data, std::size_t bytes, cl_mem_flags access);
+  /// Makes bytes that a kernel wrote into a host_buffer() visible in the host's memory, at `data` of the call above.
+  void read_back(const cl::Buffer& buffer, std::size_t offset, std::size_t bytes, void* data);
+  /// A buffer with a copy of `values`.
+  template <typename T>
+  cl::Buffer copy(const std::vector<T>& values) {
+    return copy_of(values.data(), values.size() * sizeof(T));
+  }
   /// A copy of `count` elements from `first` on.
   template <typename T>
   std::vector<T> read(const cl::Buffer& buffer, std::size_t first, std::size_t count) {
@@ -62,19 +69,14 @@ class Session {
     if (count > 0) queue_.enqueueReadBuffer(buffer, CL_TRUE, first * sizeof(T), count * sizeof(T), result.data());
     return result;
   }
-  /// A read-only buffer with a copy of `data`.
-  template <typename T>
-  cl::Buffer copy(const std::vector<T>& data) {
-    const std::size_t bytes = std::max<std::size_t>(data.size() * sizeof(T), sizeof(T));
-    cl::Buffer result(context_, CL_MEM_READ_ONLY, bytes);
-    if (!data.empty()) queue_.enqueueWriteBuffer(result, CL_TRUE, 0, data.size() * sizeof(T), data.data());
-    return result;
-  }
 
  private:
+  cl::Buffer copy_of(const void* data, std::size_t bytes);
+
   cl::Device device_;
   cl::Context context_;
   cl::CommandQueue queue_;
+  Canaries canaries_;
   std::map<std::string, cl::Program> programs_;
   std::set<cl_program> launched_;  ///< programs of which a kernel ran
 };

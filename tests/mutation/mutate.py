@@ -6,6 +6,7 @@ Works on a copy of the project. With --work the copy and its build are kept and 
 Exit status 0: every mutant was killed; 1: a mutant survived, is out of date or does not compile.
 """
 import argparse
+import re
 import shutil
 import subprocess
 import sys
@@ -101,8 +102,11 @@ def conformance_verdict(work, test):
     """Killed where the first stage that differs is the one named; "device": where the device's own test fails."""
     _, case, stage = test.split()
     status, output = run_conformance(work, case)
-    found = status == 5 if stage == "device" else status == 1 and f": {stage.replace('_', ' ')}[" in output.splitlines()[0]
-    return KILLED if found else SURVIVED
+    if stage == "device":
+        return KILLED if status == 5 else SURVIVED
+    # The first line is "CASE: pass P, PLACE: STAGE[INDEX] is ..." or "... STAGE has N values ...".
+    first = re.search(r", [^:]*: ([^\[]*?)(\[| has )", output.splitlines()[0])
+    return KILLED if status == 1 and first and first.group(1) == stage.replace("_", " ") else SURVIVED
 
 
 def run_oracle(work, case):

@@ -1,0 +1,40 @@
+#include "opencl/canaries.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "rpf/error.h"
+
+namespace rpf {
+namespace {
+
+constexpr std::size_t canary_bytes = 64;
+constexpr std::uint8_t canary = 0xA5;
+
+}  // namespace
+
+cl::Buffer Canaries::allocate(const cl::Context& context, cl::CommandQueue& queue, cl_mem_flags flags,
+                              std::size_t bytes) {
+  if (!has_canaries) return cl::Buffer(context, flags, bytes);
+  const std::vector<std::uint8_t> canaries(canary_bytes, canary);
+  cl::Buffer buffer(context, flags, bytes + canary_bytes);
+  queue.enqueueWriteBuffer(buffer, CL_TRUE, bytes, canary_bytes, canaries.data());
+  guarded_.push_back({buffer, bytes});
+  return buffer;
+}
+
+void Canaries::check(cl::CommandQueue& queue) {
+  const auto is_ours_alone = [](const Guarded& g) { return g.buffer.getInfo<CL_MEM_REFERENCE_COUNT>() == 1; };
+  guarded_.erase(std::remove_if(guarded_.begin(), guarded_.end(), is_ours_alone), guarded_.end());
+  for (const Guarded& g : guarded_) {
+    std::vector<std::uint8_t> found(canary_bytes);
+    queue.enqueueReadBuffer(g.buffer, CL_TRUE, g.bytes, canary_bytes, found.data());
+    if (std::any_of(found.begin(), found.end(), [](std::uint8_t byte) { return byte != canary; }))
+      throw Error(ErrorKind::internal,
+                  fmt::format("a kernel wrote behind a buffer of {} bytes; please report it", g.bytes));
+  }
+}
+
+}  // namespace rpf
