@@ -18,9 +18,10 @@ constexpr std::uint8_t canary = 0xA5;
 cl::Buffer Canaries::allocate(const cl::Context& context, cl::CommandQueue& queue, cl_mem_flags flags,
                               std::size_t bytes) {
   if (!has_canaries) return cl::Buffer(context, flags, bytes);
-  const std::vector<std::uint8_t> canaries(canary_bytes, canary);
-  cl::Buffer buffer(context, flags, bytes + canary_bytes);
-  queue.enqueueWriteBuffer(buffer, CL_TRUE, bytes, canary_bytes, canaries.data());
+  // All of the buffer: what a kernel reads before anything wrote it is not 0 by chance.
+  const std::vector<std::uint8_t> canaries(bytes + canary_bytes, canary);
+  cl::Buffer buffer(context, flags, canaries.size());
+  queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, canaries.size(), canaries.data());
   guarded_.push_back({buffer, bytes});
   return buffer;
 }

@@ -105,7 +105,7 @@ def conformance_verdict(work, test):
     if stage == "device":
         return KILLED if status == 5 else SURVIVED
     # The first line is "CASE: pass P, PLACE: STAGE[INDEX] is ..." or "... STAGE has N values ...".
-    first = re.search(r", [^:]*: ([^\[]*?)(\[| has )", output.splitlines()[0])
+    first = re.search(r", [^:]*: ([^\[]*?)(\[| has )", (output.splitlines() or [""])[0])
     return KILLED if status == 1 and first and first.group(1) == stage.replace("_", " ") else SURVIVED
 
 
