@@ -20,7 +20,7 @@ ROOMS = {
     "src/cli": API,
     "examples": API,
     "bench": API | {"src", "src/cpu"},
-    "tests": API | {"src", "src/cpu", "src/opencl", "src/io", "src/scene", "kernels"},
+    "tests": API | {"src", "src/cpu", "src/opencl", "src/conformance", "src/io", "src/scene", "kernels"},
 }
 # Third-party headers, each in one room only (beside the tests).
 LIBRARIES = {

@@ -1,0 +1,133 @@
+"""What can go wrong with OpenCL on a machine, and what the command then does. Usage: opencl_faults_test.py RPF PROJECT"""
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+RPF, PROJECT = sys.argv[1], Path(sys.argv[2]).resolve()
+EXAMPLE = PROJECT / "examples" / "dof-spheres.samples.exr"
+QUICK = ["--boxes", "5,3", "--crop", "16x12+20+20", "-q"]
+
+
+def run(*arguments, **environment):
+    return subprocess.run([RPF, *map(str, arguments)], capture_output=True, text=True,
+                          env={**os.environ, **{name: str(value) for name, value in environment.items()}})
+
+
+class OpenClFaults(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="rpf faults "))
+        self.cache = self.folder / "cache"
+        self.output = self.folder / "out.exr"
+        self.reference = self.folder / "reference.exr"
+        self.expect(self.filter("cpu", self.reference), 0)
+
+    def tearDown(self):
+        subprocess.run(["chmod", "-R", "u+w", self.folder], check=True)
+        shutil.rmtree(self.folder)
+
+    def filter(self, backend, output=None, *more, **environment):
+        return run(EXAMPLE, "-o", output or self.output, "--backend", backend, *QUICK, *more,
+                   **{"RPF_CACHE_DIR": self.cache, **environment})
+
+    def expect(self, result, code, *texts):
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        for text in texts:
+            self.assertIn(text, result.stdout + result.stderr)
+
+    def expect_same_bits(self):
+        self.expect(run("compare", self.output, self.reference, "--max-error", "0"), 0)
+        self.output.unlink()
+
+    def compiled(self, suffix):
+        files = list(self.cache.rglob("*" + suffix))
+        self.assertTrue(files, f"nothing compiled with the suffix {suffix}")
+        return files
+
+    # ---- devices
+
+    def test_without_a_platform(self):
+        nowhere = {"OCL_ICD_VENDORS": self.folder / "none"}
+        self.expect(self.filter("opencl", **nowhere), 5, "apt-get install pocl-opencl-icd", "--backend=cpu")
+        self.assertFalse(self.output.exists())
+        self.expect(run("devices", **nowhere), 0, "no OpenCL device")
+        self.expect(self.filter("auto", **nowhere), 0)
+        self.expect_same_bits()
+
+    def test_auto_says_what_it_chose(self):
+        loud = [option for option in QUICK if option != "-q"]
+        self.expect(run(EXAMPLE, "-o", self.output, "--backend=auto", *loud), 0, "backend opencl (")
+        self.expect_same_bits()
+        self.expect(run(EXAMPLE, "-o", self.output, "--backend=auto", *loud, OCL_ICD_VENDORS=self.folder / "none"), 0,
+                    "backend cpu (no OpenCL")
+
+    def test_device_by_index_and_name(self):
+        self.expect(run("devices"), 0, "keeps the numeric contract")
+        name = run("devices").stdout.split()[1]
+        for wanted in ("0", name[:8].upper()):
+            self.expect(self.filter("opencl", None, "--device", wanted), 0)
+            self.expect_same_bits()
+        for wanted in ("7", "no such thing"):
+            self.expect(self.filter("opencl", None, "--device", wanted), 5, wanted, name)
+
+    # ---- the kernel cache
+
+    def test_cache_that_cannot_be_written(self):
+        self.cache.write_text("a file where a folder should be")
+        self.expect(self.filter("opencl"), 0)
+        self.expect_same_bits()
+
+    def test_without_any_folder_for_caches(self):
+        self.expect(self.filter("opencl", RPF_CACHE_DIR="", XDG_CACHE_HOME="", HOME="/nonexistent"), 0)
+        self.expect_same_bits()
+
+    def test_damaged_kernels(self):
+        def shorten(path, size):
+            with open(path, "r+b") as file:
+                file.truncate(size)
+
+        def overwrite(path):
+            with open(path, "r+b") as file:
+                file.seek(path.stat().st_size // 2)
+                file.write(b"garbage")
+
+        self.expect(self.filter("opencl"), 0)
+        self.expect_same_bits()
+        for suffix in (".so", ".bc"):
+            for damage in (lambda path: shorten(path, 0), lambda path: shorten(path, path.stat().st_size // 2), overwrite):
+                for path in self.compiled(suffix):
+                    damage(path)
+                self.expect(self.filter("opencl"), 0)
+                self.expect_same_bits()
+
+    def test_several_processes_on_a_cold_cache(self):
+        outputs = [self.folder / f"out{i}.exr" for i in range(4)]
+        environment = {**os.environ, "RPF_CACHE_DIR": str(self.cache)}
+        processes = [subprocess.Popen([RPF, EXAMPLE, "-o", output, "--backend=opencl", *QUICK], env=environment) for output in outputs]
+        self.assertEqual([process.wait() for process in processes], [0] * len(outputs))
+        self.expect(run("compare", *outputs, self.reference, "--max-error", "0"), 0)
+
+    # ---- memory, signals
+
+    def test_refuses_what_does_not_fit_into_memory(self):
+        self.expect(self.filter("opencl", None, "--max-memory", "1"), 6, "MB", "--max-memory")
+        self.assertFalse(self.output.exists())
+
+    def test_stops_within_two_seconds(self):
+        process = subprocess.Popen([RPF, EXAMPLE, "-o", self.output, "--backend=opencl", "--profile", "paper", "--samples-factor", "50"],
+                                   env={**os.environ, "RPF_CACHE_DIR": str(self.folder / "warm")})
+        time.sleep(6)  # by then the kernel is compiled and runs
+        started = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(), 130)
+        self.assertLess(time.monotonic() - started, 2)
+        self.assertFalse(self.output.exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
