@@ -87,16 +87,24 @@ static rpf_pixel_statistics filter_pixel(const Frame* frame, const rpf_pass* pas
   return statistics;
 }
 
+// Copies what can reject a sample to where filter_tile looks for it: [sample][RPF_REJECTING_CHUNKS], the band's samples.
+__kernel void collect_features(__global const float* records, __global float16* features, uint samples) {
+  for (uint s = (uint)get_global_id(0); s < samples; s += (uint)get_global_size(0))
+    for (int c = 0; c < RPF_REJECTING_CHUNKS; ++c)
+      features[(size_t)s * RPF_REJECTING_CHUNKS + c] =
+          vload16(0, records + (size_t)s * RPF_VARIABLES + RPF_FIRST_FEATURE + RPF_LANES * c);
+}
+
 // Filters the pixels of a tile. `next_colors` [sample][RPF_CARRIED] and `statistics` [pixel] cover the band. Where
 // `trace_values` is not null the tile is one pixel.
 __kernel void filter_tile(__global const uint* first_sample, __global const float* records,
-                          __global const float* colors, __global const char* offsets, __global const uint* draws,
+                          __global const float16* features, __global const float* colors, __global const char* offsets, __global const uint* draws,
                           __global const int* entropy, __global const float* rejection_factor,
                           __global const float* minimum_tolerance, __global uint* candidates, __global uint* neighbors,
                           __global float16* columns, __global uint* planes, __global float16* neighbor_colors,
                           __global float* next_colors, __global rpf_pixel_statistics* statistics,
                           __global float* trace_values, __global uint* trace_histograms, const rpf_pass pass) {
-  const Frame frame = {first_sample, records, colors, offsets, draws, entropy, rejection_factor, minimum_tolerance};
+  const Frame frame = {first_sample, records, features, colors, offsets, draws, entropy, rejection_factor, minimum_tolerance};
   Trace trace;
   trace.values = trace_values;
   trace.histograms = trace_histograms;

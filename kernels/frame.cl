@@ -22,6 +22,7 @@
 typedef struct {
   __global const uint* first_sample;        // [pixel + 1]
   __global const float* records;            // [sample][RPF_VARIABLES], and RPF_LANES floats more
+  __global const float16* features;         // [sample][RPF_REJECTING_CHUNKS] what can reject it, one cache line a vector
   __global const float* colors;             // [sample][RPF_CARRIED] c'
   __global const char* offsets;             // [65536] of the draws
   __global const uint* draws;               // [samples of a pixel] candidates to draw

@@ -59,48 +59,6 @@ static void own_moments(const Frame* frame, const rpf_pass* pass, uint first, ui
   for (int c = 0; c < RPF_FEATURE_CHUNKS; ++c) feature_moments(frame, pass, first, own, c, out);
 }
 
-// The sample that these words draw; RPF_NO_SAMPLE where they leave the image or meet an empty pixel.
-static uint drawn_sample(const Frame* frame, const rpf_pass* pass, int x, int y, uint place, uint choice) {
-  const int dx = frame->offsets[place & 0xFFFFu], dy = frame->offsets[place >> 16];
-  const int to_x = x + dx, to_y = y + dy;
-  if ((dx == 0 && dy == 0) || to_x < 0 || to_x >= pass->width || to_y < 0 || to_y >= pass->height) return RPF_NO_SAMPLE;
-  const uint pixel = (uint)to_y * (uint)pass->width + (uint)to_x;
-  const uint samples = samples_of(frame, pass, pixel);
-  return samples > 0 ? first_sample_of(frame, pass, pixel) + rpf_choose(choice, samples) : RPF_NO_SAMPLE;
-}
-
-// The attempts of a draw behind the first one.
-static uint draw_again(const Frame* frame, const rpf_pass* pass, rpf_words key, int x, int y, uint draw) {
-  uint sample = RPF_NO_SAMPLE;
-  for (uint attempt = 1; attempt < pass->attempts && sample == RPF_NO_SAMPLE; ++attempt) {
-    const rpf_words words = rpf_draw_words(key, draw, attempt);
-    sample = drawn_sample(frame, pass, x, y, words.x, words.y);
-  }
-  return sample;
-}
-
-// Fills slot->candidates; returns their number. The words of RPF_LANES draws are made at once.
-static uint draw_candidates(const Frame* frame, const rpf_pass* pass, uint pixel, uint own, const Slot* slot) {
-  const rpf_words key = rpf_draw_key(pass->seed, pass->pass, pixel);
-  const int y = (int)(pixel / (uint)pass->width), x = (int)pixel - y * pass->width;
-  const uint draws = frame->draws[own];
-  uint count = 0;
-  for (uint begin = 0; begin < draws; begin += RPF_LANES) {
-    const rpf_words16 words = rpf_draw_words(key, begin + as_uint16(RPF_LANE_NUMBERS), 0);
-    uint place[RPF_LANES], choice[RPF_LANES];
-    vstore16(words.x, 0, place);
-    vstore16(words.y, 0, choice);
-    const uint lanes = min(draws - begin, (uint)RPF_LANES);
-    for (uint l = 0; l < lanes; ++l) {
-      uint candidate = drawn_sample(frame, pass, x, y, place[l], choice[l]);
-      if (candidate == RPF_NO_SAMPLE) candidate = draw_again(frame, pass, key, x, y, begin + l);
-      slot->candidates[count] = candidate;
-      count += candidate != RPF_NO_SAMPLE;
-    }
-  }
-  return count;
-}
-
 static int any_lane(int16 condition) {
   const int8 a = condition.lo | condition.hi;
   const int4 b = a.lo | a.hi;
@@ -108,12 +66,79 @@ static int any_lane(int16 condition) {
   return (c.x | c.y) != 0;
 }
 
+// The attempts of a draw from `attempt` on: a sample, or RPF_NO_SAMPLE where all left the image or met an empty pixel.
+static uint draw_sample(const Frame* frame, const rpf_pass* pass, rpf_words key, int x, int y, uint draw,
+                        uint attempt) {
+  for (; attempt < pass->attempts; ++attempt) {
+    const rpf_words words = rpf_draw_words(key, draw, attempt);
+    const int dx = frame->offsets[words.x & 0xFFFFu], dy = frame->offsets[words.x >> 16];
+    const int to_x = x + dx, to_y = y + dy;
+    if ((dx == 0 && dy == 0) || to_x < 0 || to_x >= pass->width || to_y < 0 || to_y >= pass->height) continue;
+    const uint pixel = (uint)to_y * (uint)pass->width + (uint)to_x;
+    const uint samples = samples_of(frame, pass, pixel);
+    if (samples > 0) return first_sample_of(frame, pass, pixel) + rpf_choose(words.y, samples);
+  }
+  return RPF_NO_SAMPLE;
+}
+
+static int16 look_up(__global const char* offsets, uint16 index) {
+  uint lane[RPF_LANES];
+  char offset[RPF_LANES];
+  vstore16(index, 0, lane);
+#pragma unroll
+  for (int l = 0; l < RPF_LANES; ++l) offset[l] = offsets[lane[l]];
+  return convert_int16(vload16(0, offset));
+}
+
+// The first attempts of RPF_LANES draws at once, where every pixel has RPF_SAMPLES samples. `failed`: lanes that have to
+// try again.
+static uint16 draw_samples(const Frame* frame, const rpf_pass* pass, rpf_words key, int x, int y, uint first_draw,
+                           int16* failed) {
+  const rpf_words16 words = rpf_draw_words(key, first_draw + as_uint16(RPF_LANE_NUMBERS), 0);
+  const int16 dx = look_up(frame->offsets, words.x & 0xFFFFu), dy = look_up(frame->offsets, words.x >> 16);
+  const int16 to_x = x + dx, to_y = y + dy;
+  *failed = (dx | dy) == 0 | to_x < 0 | to_x >= pass->width | to_y < 0 | to_y >= pass->height;
+  const uint16 pixel = as_uint16(to_y) * (uint)pass->width + as_uint16(to_x);
+  return pixel * RPF_SAMPLES + mul_hi(words.y, (uint16)(RPF_SAMPLES));
+}
+
+// Fills slot->candidates; returns their number.
+static uint draw_candidates(const Frame* frame, const rpf_pass* pass, uint pixel, uint own, const Slot* slot) {
+  const rpf_words key = rpf_draw_key(pass->seed, pass->pass, pixel);
+  const int y = (int)(pixel / (uint)pass->width), x = (int)pixel - y * pass->width;
+  const uint draws = frame->draws[own];
+  uint draw = 0, count = 0;
+  for (; RPF_SAMPLES > 0 && draw + RPF_LANES <= draws; draw += RPF_LANES) {
+    int16 failed;
+    const uint16 samples = draw_samples(frame, pass, key, x, y, draw, &failed);
+    if (any_lane(failed)) {
+      uint sample[RPF_LANES];
+      int again[RPF_LANES];
+      vstore16(samples, 0, sample);
+      vstore16(failed, 0, again);
+      for (uint l = 0; l < RPF_LANES; ++l) {
+        const uint candidate = again[l] ? draw_sample(frame, pass, key, x, y, draw + l, 1) : sample[l];
+        slot->candidates[count] = candidate;
+        count += candidate != RPF_NO_SAMPLE;
+      }
+    } else {
+      vstore16(samples, 0, slot->candidates + count);
+      count += RPF_LANES;
+    }
+  }
+  for (; draw < draws; ++draw) {
+    slot->candidates[count] = draw_sample(frame, pass, key, x, y, draw, 0);
+    count += slot->candidates[count] != RPF_NO_SAMPLE;
+  }
+  return count;
+}
+
 static int is_accepted(const Frame* frame, const rpf_pass* pass, uint sample, const OwnMoments* own) {
+  __global const float16* features = frame->features + (size_t)(sample - pass->first_sample) * RPF_REJECTING_CHUNKS;
   int16 rejected = 0;
 #pragma unroll
   for (int c = 0; c < RPF_REJECTING_CHUNKS; ++c)
-    rejected |=
-        rpf_rejects(load_features(frame, pass, sample, c) - own->feature_shift[c], own->mean[c], own->tolerance[c]);
+    rejected |= rpf_rejects(features[c] - own->feature_shift[c], own->mean[c], own->tolerance[c]);
   return !any_lane(rejected);
 }
 

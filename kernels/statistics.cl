@@ -81,24 +81,38 @@ static void store_plane(__global uint* plane, uint16 bits, uint words, uint bloc
     vstore2(quarters.lo | quarters.hi << 4 * blocks, 0, plane);
 }
 
+// Bits of a bin's number.
+#define RPF_BIN_BITS (RPF_BINS > 15 ? 5 : RPF_BINS > 7 ? 4 : RPF_BINS > 3 ? 3 : 2)
+
+// The plane of one bin from the planes of the bits of its number. `bin` is a constant once the loop is unrolled.
+static uint16 plane_of(const uint16* number, int bin, uint16 is_neighbor) {
+  uint16 plane = is_neighbor;
+#pragma unroll
+  for (int i = 0; i < RPF_BIN_BITS; ++i) plane &= (bin >> i & 1) != 0 ? number[i] : ~number[i];
+  return plane;
+}
+
 // The bit planes of one normalized column.
 static void fill_planes(__global const float16* column, uint neighbors, uint words, __global uint* planes) {
   const uint blocks = (neighbors + RPF_LANES - 1) / RPF_LANES;
   for (uint group = 0; group * 32 < blocks; ++group) {
-    uint16 bits[RPF_BINS];
+    uint16 number[RPF_BIN_BITS];
 #pragma unroll
-    for (int bin = 0; bin < RPF_BINS; ++bin) bits[bin] = 0;
+    for (int i = 0; i < RPF_BIN_BITS; ++i) number[i] = 0;
     const uint end = min(blocks - group * 32, 32u);
     for (uint k = 0; k < end; ++k) {
-      const uint block = group * 32 + k;
-      const int16 is_neighbor = RPF_LANE_NUMBERS < (int)(neighbors - block * RPF_LANES);
-      const int16 bins = is_neighbor ? rpf_bin(column[block], RPF_HALF_BINS) : -1;
+      const uint16 bin = as_uint16(rpf_bin(column[group * 32 + k], RPF_HALF_BINS));
 #pragma unroll
-      for (int bin = 0; bin < RPF_BINS; ++bin) bits[bin] |= as_uint16(bins == bin) & (1u << k);
+      for (int i = 0; i < RPF_BIN_BITS; ++i) number[i] |= (bin >> i & 1u) << k;
     }
+    // Full blocks have all bits; in the last block only the lanes of neighbors count.
+    const uint full = min(neighbors / RPF_LANES - group * 32, 32u);
+    const uint full_bits = full == 32 ? 0xFFFFFFFFu : (1u << full) - 1;
+    const int16 in_last = RPF_LANE_NUMBERS < (int)(neighbors % RPF_LANES);
+    const uint16 is_neighbor = full_bits | (as_uint16(in_last) & (full < end ? 1u << full : 0));
 #pragma unroll
     for (int bin = 0; bin < RPF_BINS; ++bin)
-      store_plane(planes + bin * words + group * RPF_LANES, bits[bin], words, blocks);
+      store_plane(planes + bin * words + group * RPF_LANES, plane_of(number, bin, is_neighbor), words, blocks);
   }
 }
 

@@ -33,6 +33,7 @@ void plan_rejection(Plan& plan, const FrameFacts& facts, const Settings& setting
     const float tolerance = is_world_position(name) ? position_tolerance : least_tolerance;
     plan.rejection_factor.push_back(is_world_position(name) ? position_rejection_factor : feature_rejection_factor);
     plan.minimum_tolerance.push_back(takes_part ? tolerance : std::numeric_limits<float>::infinity());
+    if (takes_part) plan.rejecting = plan.minimum_tolerance.size();
   }
 }
 

@@ -24,10 +24,10 @@ SampleBuffer samples_of(const ConformanceCase& c) {
 }
 
 /// Most bytes of a band that holds `rows` rows, wherever they are; 0: no limit.
-std::uint64_t bytes_of_rows(const Frame& frame, std::size_t carried, int rows) {
+std::uint64_t bytes_of_rows(const Frame& frame, const Plan& plan, int rows) {
   std::uint64_t bytes = 0;
   for (int y = 0; rows > 0 && y + rows <= frame.height; ++y)
-    bytes = std::max(bytes, band_bytes(frame, carried, {y, y + rows}));
+    bytes = std::max(bytes, band_bytes(frame, SampleFloats(plan), {y, y + rows}));
   return bytes;
 }
 
@@ -54,7 +54,7 @@ class Lockstep {
       : prepared_(prepare(samples_of(c), c.settings)),
         plan_(make_plan(prepared_.facts, c.settings)),
         reference_(threads),
-        device_({device, threads, bytes_of_rows(prepared_.frame, plan_.carried, c.band_rows)}) {
+        device_({device, threads, bytes_of_rows(prepared_.frame, plan_, c.band_rows)}) {
     reference_.load(prepared_.frame, prepared_.colors, plan_);
     device_.load(prepared_.frame, prepared_.colors, plan_);
   }

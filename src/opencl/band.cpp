@@ -13,7 +13,13 @@ std::uint64_t record_bytes(const Frame& frame, std::uint64_t samples) {
   return (samples * frame.variables + RPF_LANES) * sizeof(float);  // vector loads may reach behind the last record
 }
 
-std::uint64_t color_bytes(std::uint64_t samples, std::size_t carried) { return samples * carried * sizeof(float); }
+std::uint64_t color_bytes(std::uint64_t samples, const SampleFloats& floats) {
+  return samples * floats.carried * sizeof(float);
+}
+
+std::uint64_t feature_bytes(std::uint64_t samples, const SampleFloats& floats) {
+  return samples * floats.features * sizeof(float);
+}
 
 std::uint64_t sample_count(const Frame& frame, const Rows& rows) {
   return frame.first_sample[pixel_number(frame, rows.end)] - frame.first_sample[pixel_number(frame, rows.begin)];
@@ -21,25 +27,29 @@ std::uint64_t sample_count(const Frame& frame, const Rows& rows) {
 
 }  // namespace
 
-std::uint64_t band_bytes(const Frame& frame, std::size_t carried, const Rows& rows) {
+SampleFloats::SampleFloats(const Plan& plan)
+    : features((plan.rejecting + RPF_LANES - 1) / RPF_LANES * RPF_LANES), carried(plan.carried) {}
+
+std::uint64_t band_bytes(const Frame& frame, const SampleFloats& floats, const Rows& rows) {
   const std::size_t pixels = pixel_number(frame, rows.end) - pixel_number(frame, rows.begin);
   const std::uint64_t per_pixel = (pixels + 1) * sizeof(std::uint32_t) + pixels * sizeof(kernel::rpf_pixel_statistics);
-  return record_bytes(frame, sample_count(frame, rows)) + 2 * color_bytes(sample_count(frame, rows), carried) +
-         per_pixel;
-}
-
-bool fits(const Frame& frame, std::size_t carried, const Rows& rows, const BandLimit& limit) {
   const std::uint64_t samples = sample_count(frame, rows);
-  return band_bytes(frame, carried, rows) <= limit.total &&
-         std::max(record_bytes(frame, samples), color_bytes(samples, carried)) <= limit.buffer;
+  return record_bytes(frame, samples) + feature_bytes(samples, floats) + 2 * color_bytes(samples, floats) + per_pixel;
 }
 
-Rows rows_that_fit(const Frame& frame, std::size_t carried, const Rows& needed, const BandLimit& limit) {
-  if (fits(frame, carried, {0, frame.height}, limit)) return {0, frame.height};
+bool fits(const Frame& frame, const SampleFloats& floats, const Rows& rows, const BandLimit& limit) {
+  const std::uint64_t samples = sample_count(frame, rows);
+  return band_bytes(frame, floats, rows) <= limit.total &&
+         std::max({record_bytes(frame, samples), feature_bytes(samples, floats), color_bytes(samples, floats)}) <=
+             limit.buffer;
+}
+
+Rows rows_that_fit(const Frame& frame, const SampleFloats& floats, const Rows& needed, const BandLimit& limit) {
+  if (fits(frame, floats, {0, frame.height}, limit)) return {0, frame.height};
   int fitting = needed.end, too_many = frame.height + 1;
   while (too_many - fitting > 1) {
     const int middle = fitting + (too_many - fitting) / 2;
-    (fits(frame, carried, {needed.begin, middle}, limit) ? fitting : too_many) = middle;
+    (fits(frame, floats, {needed.begin, middle}, limit) ? fitting : too_many) = middle;
   }
   return {needed.begin, fitting};
 }
@@ -48,7 +58,7 @@ Band make_band(Session& session, const BandSource& source, int pass, const Rows&
   const Frame& frame = source.frame;
   const std::size_t begin = pixel_number(frame, rows.begin), end = pixel_number(frame, rows.end);
   const std::size_t first = frame.first_sample[begin], samples = sample_count(frame, rows);
-  const std::size_t colors = color_bytes(samples, source.carried);
+  const std::size_t colors = color_bytes(samples, source.floats);
   Band band;
   band.pass = pass;
   band.rows = rows;
@@ -57,8 +67,10 @@ Band make_band(Session& session, const BandSource& source, int pass, const Rows&
   band.first_samples = session.host_buffer(frame.first_sample.data() + begin, (end - begin + 1) * sizeof(std::uint32_t),
                                            CL_MEM_READ_ONLY);
   band.records = session.host_buffer(frame.record(first), record_bytes(frame, samples), CL_MEM_READ_ONLY);
-  band.colors = session.host_buffer(source.colors.data() + first * source.carried, colors, CL_MEM_READ_ONLY);
-  band.next_colors = session.host_buffer(source.next_colors.data() + first * source.carried, colors, CL_MEM_READ_WRITE);
+  band.features = session.buffer(std::max<std::uint64_t>(feature_bytes(samples, source.floats), sizeof(float)));
+  band.colors = session.host_buffer(source.colors.data() + first * source.floats.carried, colors, CL_MEM_READ_ONLY);
+  band.next_colors =
+      session.host_buffer(source.next_colors.data() + first * source.floats.carried, colors, CL_MEM_READ_WRITE);
   band.statistics = session.host_buffer(source.statistics.data() + begin,
                                         (end - begin) * sizeof(kernel::rpf_pixel_statistics), CL_MEM_READ_WRITE);
   return band;

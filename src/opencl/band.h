@@ -23,9 +23,18 @@ struct Band {
   std::uint32_t first_pixel = 0, first_sample = 0;
   cl::Buffer first_samples;  ///< [pixel + 1]
   cl::Buffer records;        ///< [sample][variables]
+  cl::Buffer features;       ///< [sample][rejecting chunks][RPF_LANES] a copy, made on the device
   cl::Buffer colors;         ///< [sample][carried] c'
   cl::Buffer next_colors;    ///< [sample][carried] c''
   cl::Buffer statistics;     ///< [pixel]
+};
+
+/// Floats a sample.
+struct SampleFloats {
+  std::size_t features = 0;  ///< of Band::features, whole vectors
+  std::size_t carried = 0;
+
+  explicit SampleFloats(const Plan& plan);
 };
 
 /// The frame-wide arrays that bands are parts of.
@@ -34,7 +43,7 @@ struct BandSource {
   const std::vector<float>& colors;
   std::vector<float>& next_colors;
   std::vector<kernel::rpf_pixel_statistics>& statistics;
-  std::size_t carried;
+  SampleFloats floats;
 };
 
 /// Most bytes on the device: of all buffers of a band together, and of one of them.
@@ -43,13 +52,13 @@ struct BandLimit {
 };
 
 /// Bytes of the buffers of these rows.
-std::uint64_t band_bytes(const Frame& frame, std::size_t carried, const Rows& rows);
+std::uint64_t band_bytes(const Frame& frame, const SampleFloats& floats, const Rows& rows);
 
 /// Whether these rows can be on the device at once.
-bool fits(const Frame& frame, std::size_t carried, const Rows& rows, const BandLimit& limit);
+bool fits(const Frame& frame, const SampleFloats& floats, const Rows& rows, const BandLimit& limit);
 
 /// The whole frame where it fits, else as many rows as fit from needed.begin on. `needed` itself fits.
-Rows rows_that_fit(const Frame& frame, std::size_t carried, const Rows& needed, const BandLimit& limit);
+Rows rows_that_fit(const Frame& frame, const SampleFloats& floats, const Rows& needed, const BandLimit& limit);
 
 Band make_band(Session& session, const BandSource& source, int pass, const Rows& rows);
 

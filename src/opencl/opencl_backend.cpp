@@ -12,6 +12,9 @@ namespace {
 
 constexpr float unlimited = std::numeric_limits<float>::infinity();
 
+/// Keeps what is copied for a band small beside the frame, and costs nothing: bands overlap by a box width.
+constexpr std::uint64_t most_band_bytes = 512U << 20U;
+
 /// Work-items for each compute unit of a device that hides latency by switching between them.
 constexpr std::size_t items_per_gpu_unit = 64;
 
@@ -23,13 +26,6 @@ std::size_t work_items(const cl::Device& device, int threads) {
   return units * items_per_gpu_unit;
 }
 
-/// Features up to the last one that can reject a candidate.
-std::size_t rejecting(const Plan& plan) {
-  const auto& tolerance = plan.minimum_tolerance;
-  const auto last = std::find_if(tolerance.rbegin(), tolerance.rend(), [](float a) { return a < unlimited; });
-  return static_cast<std::size_t>(tolerance.rend() - last);
-}
-
 /// The numbers of the plan that are compiled in (frame.cl).
 std::string definitions(const Frame& frame, const Plan& plan) {
   const std::uint32_t most = most_samples(frame.first_sample);
@@ -37,7 +33,7 @@ std::string definitions(const Frame& frame, const Plan& plan) {
   return fmt::format(
       "-DRPF_VARIABLES={} -DRPF_RANDOM={} -DRPF_FEATURES={} -DRPF_REJECTING={} -DRPF_BINS={} -DRPF_CARRIED={} "
       "-DRPF_SAMPLES={}",
-      plan.variables.count(), plan.variables.random_names.size(), plan.variables.feature_names.size(), rejecting(plan),
+      plan.variables.count(), plan.variables.random_names.size(), plan.variables.feature_names.size(), plan.rejecting,
       2 * plan.half_bins + 1, plan.carried, uniform ? most : 0);
 }
 
@@ -80,7 +76,9 @@ void OpenClBackend::load(const Frame& frame, std::vector<float> colors, const Pl
   band_.reset();
   tables_.clear();
   on_device("preparing the filter", [&] {
-    kernel_ = cl::Kernel(session_.program("filter.cl", definitions(frame, plan)), "filter_tile");
+    const cl::Program& program = session_.program("filter.cl", definitions(frame, plan));
+    kernel_ = cl::Kernel(program, "filter_tile");
+    collect_kernel_ = cl::Kernel(program, "collect_features");
     rejection_factor_ = session_.copy(padded(plan.rejection_factor));
     minimum_tolerance_ = session_.copy(padded(plan.minimum_tolerance));
     scratch_ = std::make_unique<Scratch>(session_, plan, items_);
@@ -100,17 +98,28 @@ BandLimit OpenClBackend::band_limit() const {
   const std::uint64_t memory = session_.device().getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
   const std::uint64_t scratch = items_ * scratch_->sizes.bytes();
   const std::uint64_t left = memory > scratch ? memory - scratch : 0;
-  return {band_bytes_ > 0 ? band_bytes_ : left, session_.device().getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>()};
+  return {band_bytes_ > 0 ? band_bytes_ : std::min(left, most_band_bytes),
+          session_.device().getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>()};
 }
 
 const Band& OpenClBackend::band_for(int pass, const Rows& needed) {
   if (!band_ || band_->pass != pass || !band_->rows.contains(needed)) {
-    const Rows rows = rows_that_fit(*frame_, plan_->carried, needed, band_limit());
+    const Rows rows = rows_that_fit(*frame_, SampleFloats(*plan_), needed, band_limit());
     band_.reset();
     band_ = std::make_unique<Band>(
-        make_band(session_, {*frame_, colors_, next_colors_, statistics_, plan_->carried}, pass, rows));
+        make_band(session_, {*frame_, colors_, next_colors_, statistics_, SampleFloats(*plan_)}, pass, rows));
+    collect_features(*band_);
   }
   return *band_;
+}
+
+void OpenClBackend::collect_features(const Band& band) {
+  const std::size_t begin = static_cast<std::size_t>(band.rows.begin) * plan_->width,
+                    end = static_cast<std::size_t>(band.rows.end) * plan_->width;
+  collect_kernel_.setArg(0, band.records);
+  collect_kernel_.setArg(1, band.features);
+  collect_kernel_.setArg(2, frame_->first_sample[end] - frame_->first_sample[begin]);
+  session_.launch(collect_kernel_, items_, 1);
 }
 
 kernel::rpf_pass OpenClBackend::arguments(int pass, const Window& tile, const Band& band) const {
@@ -142,6 +151,7 @@ void OpenClBackend::launch(int pass, const Window& tile, const Band& band, std::
   const PassTables& t = tables(pass);
   const cl::Buffer* buffers[] = {&band.first_samples,
                                  &band.records,
+                                 &band.features,
                                  &band.colors,
                                  &t.offsets,
                                  &t.draws,
@@ -165,7 +175,7 @@ void OpenClBackend::launch(int pass, const Window& tile, const Band& band, std::
 
 void OpenClBackend::run(int pass, const Window& tile) {
   const Rows needed = rows_read(*plan_, pass, tile);
-  if (!fits(*frame_, plan_->carried, needed, band_limit())) {
+  if (!fits(*frame_, SampleFloats(*plan_), needed, band_limit())) {
     run_halves(pass, tile);
     return;
   }

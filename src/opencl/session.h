@@ -78,7 +78,7 @@ class Session {
   cl::CommandQueue queue_;
   Canaries canaries_;
   std::map<std::string, cl::Program> programs_;
-  std::set<cl_program> launched_;  ///< programs of which a kernel ran
+  std::set<std::string> launched_;  ///< kernels that ran, with their program
 };
 
 }  // namespace rpf

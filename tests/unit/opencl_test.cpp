@@ -32,29 +32,32 @@ Frame frame_of_ten_rows() {
   return frame;
 }
 
+/// No features, 3 values carried.
+SampleFloats color_only() { return SampleFloats(Plan{}); }
+
 TEST(Band, IsTheWholeFrameWhereThatFits) {
   const Frame frame = frame_of_ten_rows();
-  const std::uint64_t all = band_bytes(frame, 3, {0, 10});
-  const Rows rows = rows_that_fit(frame, 3, {4, 6}, {all, all});
+  const std::uint64_t all = band_bytes(frame, color_only(), {0, 10});
+  const Rows rows = rows_that_fit(frame, color_only(), {4, 6}, {all, all});
   EXPECT_EQ(rows.begin, 0);
   EXPECT_EQ(rows.end, 10);
 }
 
 TEST(Band, IsAsManyRowsAsFitFromTheNeededOnesOn) {
   const Frame frame = frame_of_ten_rows();
-  const std::uint64_t five = band_bytes(frame, 3, {0, 5});
-  const Rows rows = rows_that_fit(frame, 3, {2, 4}, {five, five});
+  const std::uint64_t five = band_bytes(frame, color_only(), {0, 5});
+  const Rows rows = rows_that_fit(frame, color_only(), {2, 4}, {five, five});
   EXPECT_EQ(rows.begin, 2);
   EXPECT_EQ(rows.end, 7);
-  EXPECT_FALSE(fits(frame, 3, {2, 8}, {five, five}));
+  EXPECT_FALSE(fits(frame, color_only(), {2, 8}, {five, five}));
 }
 
 TEST(Band, RespectsTheLargestBuffer) {
   const Frame frame = frame_of_ten_rows();
   const std::uint64_t plenty = std::numeric_limits<std::uint64_t>::max();
   const std::uint64_t records_of_two_rows = (2 * 3 * 2 * 5 + RPF_LANES) * sizeof(float);
-  EXPECT_TRUE(fits(frame, 3, {0, 2}, {plenty, records_of_two_rows}));
-  EXPECT_FALSE(fits(frame, 3, {0, 3}, {plenty, records_of_two_rows}));
+  EXPECT_TRUE(fits(frame, color_only(), {0, 2}, {plenty, records_of_two_rows}));
+  EXPECT_FALSE(fits(frame, color_only(), {0, 3}, {plenty, records_of_two_rows}));
 }
 
 TEST(KernelSource, PutsIncludesInPlaceAndSaysWhereLinesComeFrom) {
