@@ -68,7 +68,8 @@ int run(const Options& options) {
 Command add_compare_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
-      "compare", "Measure images against a reference: relMSE, MSE, energy, trimmed relMSE, MAE, PSNR, SSIM, FLIP");
+      "compare",
+      "Measure images against a reference: relMSE, MSE, energy, trimmed relMSE, MAE, PSNR, SSIM, FLIP, HDR-FLIP");
   command->add_option("IMAGES", options->files, "Images, the reference last")->required();
   command->add_option("--side-by-side", options->side_by_side, "Also write all of them in a row")
       ->type_name("FILE.png");

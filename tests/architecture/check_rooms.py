@@ -17,7 +17,7 @@ ROOMS = {
     "src/cli": API,
     "examples": API,
     "bench": API | {"src", "src/cpu"},
-    "tests": API | {"src", "src/cpu", "src/io", "kernels"},
+    "tests": API | {"src", "src/cpu", "src/io", "src/metrics", "kernels"},
 }
 # Third-party headers, each in one room only (beside the tests).
 LIBRARIES = {
