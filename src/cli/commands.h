@@ -13,5 +13,6 @@ Command add_filter_command(CLI::App& app);   ///< rpf INPUT -o OUTPUT
 Command add_info_command(CLI::App& app);     ///< rpf info FILE
 Command add_compare_command(CLI::App& app);  ///< rpf compare IMAGE... REFERENCE
 Command add_merge_command(CLI::App& app);    ///< rpf merge FILE FILE... -o FILE
+Command add_convert_command(CLI::App& app);  ///< rpf convert FILE -o FILE
 
 }  // namespace rpf::cli

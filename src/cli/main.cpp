@@ -18,6 +18,7 @@ constexpr const char* footer = R"(Examples:
   rpf info render.samples.exr
   rpf compare before.exr filtered.exr reference.exr --side-by-side picture.png
   rpf merge seed-1.samples.exr seed-2.samples.exr -o both.samples.exr
+  rpf convert theirs.exr -o ours.samples.exr
 
 Exit codes: 0 ok, 1 internal, 2 usage, 3 input, 4 output, 5 device, 6 memory, 128 + signal when stopped;
 rpf compare --max-error: 1 when an image is above it.)";
@@ -33,6 +34,7 @@ int run(int argc, char** argv) {
   const Command info_command = add_info_command(app);
   const Command compare_command = add_compare_command(app);
   const Command merge_command = add_merge_command(app);
+  const Command convert_command = add_convert_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -41,6 +43,7 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("info")) return info_command();
   if (app.got_subcommand("compare")) return compare_command();
   if (app.got_subcommand("merge")) return merge_command();
+  if (app.got_subcommand("convert")) return convert_command();
   return filter_command();
 }
 
