@@ -78,9 +78,9 @@ Image white(int width, int height) {
   return image;
 }
 
-/// As large as the image above it leaves room for.
+/// As wide as the image above it allows, and at most twice as high: a narrow crop would become a tower.
 Scale magnification(const Window& size, const Window& crop, const Scale& scale) {
-  const int factor = std::min(scale.length(size.width) / crop.width, scale.length(size.height) / crop.height);
+  const int factor = std::min(scale.length(size.width) / crop.width, 2 * scale.length(size.height) / crop.height);
   return factor > 0 ? Scale{factor, 1} : scale;
 }
 

@@ -89,7 +89,7 @@ class SideBySideTest(unittest.TestCase):
         picture = self.compare(a, b, "--zoom", "100x2+600+4")
         self.assertEqual(picture.shape[1], 2 * 1250 + GAP)
         self.assertTrue((picture[0, 0] == DARK).all())
-        np.testing.assert_array_equal(picture[6 + GAP:, :300], enlarged(a[4:6, 600:700], 3))
+        np.testing.assert_array_equal(picture[6 + GAP:, :600], enlarged(a[4:6, 600:700], 6))  # twice as high as above
         whole = self.compare(a, b, "--zoom", "2500x12+0+0")  # does not fit as it is
         self.assertEqual(whole.shape, (6 + GAP + 6, 2 * 1250 + GAP, 3))
 
@@ -99,7 +99,7 @@ class SideBySideTest(unittest.TestCase):
         for zoom in ("8x4", "8x4+33+0", "8x4+0+29", "8x4-1+0", "41x4+0+0", "8x4+2147483647+0"):
             with self.subTest(zoom=zoom):
                 self.assertIn(f"--zoom {zoom}", self.compare(a, b, "--zoom", zoom, code=2))
-        self.assertEqual(self.compare(a[:2, :3], b[:2, :3]).shape, (8 + GAP + 8, 2 * 12 + GAP, 3))  # a crop of one pixel
+        self.assertEqual(self.compare(a[:2, :3], b[:2, :3]).shape, (8 + GAP + 12, 2 * 12 + GAP, 3))  # a crop of one pixel
 
 
 if __name__ == "__main__":
