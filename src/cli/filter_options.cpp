@@ -42,7 +42,7 @@ std::vector<std::string> groups(const std::string& text) {
 }
 
 void add_file_options(CLI::App& app, FilterOptions& o) {
-  app.add_option("-i,--input,INPUT", o.input, "Sample file (deep OpenEXR)")->type_name("FILE");
+  app.add_option("-i,--input,INPUT", o.input, "Sample file (deep OpenEXR or raw floats)")->type_name("FILE");
   app.add_option("-o,--output", o.output, "Filtered image; the extension chooses the format (exr, png, ...)")
       ->type_name("FILE");
   app.add_option(

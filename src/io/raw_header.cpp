@@ -29,9 +29,10 @@ constexpr std::size_t alignment = 64;  // of the first plane: a cache line, for 
 }
 
 [[noreturn]] void reject_key(const FileBytes& file, const std::string& key, const std::string& expected) {
-  reject(file, fmt::format("has another value of the key \"{}\" in its header than expected: {}; write it as "
-                           "docs/file-format.md shows",
-                           key, expected));
+  reject(file,
+         fmt::format("has an unexpected value of \"{}\" in its header, expected {}; write it as docs/file-format.md "
+                     "shows",
+                     key, expected));
 }
 
 // ---- reading
