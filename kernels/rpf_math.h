@@ -1,4 +1,5 @@
-// The formulas of Random Parameter Filtering, one function each, for every backend (numeric.h is the contract).
+// The formulas of Random Parameter Filtering, one function each, for every backend (numeric.h is the contract; those
+// that hold value by value stand in elementwise.h).
 // "section n" and "(T n)" are the sections and equation numbers of docs/algorithm.md; T is Van Campenhout's thesis.
 #ifndef RPF_MATH_H
 #define RPF_MATH_H
@@ -20,25 +21,8 @@ namespace rpf::kernel {
 // The key of a pixel's draws in one pass. Every pass and every seed draws anew.
 RPF_INLINE rpf_words rpf_draw_key(uint seed, uint pass, uint pixel) { return rpf_hash(seed, pass, pixel); }
 
-// The random words of one attempt of one draw: x indexes the offset table (low half: dx, high half: dy), y picks the
-// sample. A draw has at most RPF_MAX_ATTEMPTS attempts, so that the counters of two draws never meet.
-#define RPF_MAX_ATTEMPTS 16u
-RPF_INLINE rpf_words rpf_draw_words(rpf_words key, uint draw, uint attempt) {
-  return rpf_hash(key.x ^ (draw * RPF_MAX_ATTEMPTS + attempt), key.y, key.z);
-}
-
 // A uniform choice among `count` samples.
 RPF_INLINE uint rpf_choose(uint word, uint count) { return mul_hi(word, count); }
-
-// The one tolerance that the two conditions of the rejection test come to for H >= 1: max(H s, a).
-RPF_INLINE float rpf_tolerance(float rejection_factor, float own_deviation, float minimum) {
-  const float scaled = rejection_factor * own_deviation;
-  return scaled > minimum ? scaled : minimum;
-}
-
-// A candidate is rejected when this holds for any feature. `value` and `own_mean` are both relative to the same shift.
-// Missing values compare false and so never reject.
-RPF_INLINE int rpf_rejects(float value, float own_mean, float tolerance) { return fabs(value - own_mean) > tolerance; }
 
 // ---- section 4: normalization ---------------------------------------------------------------------------------------
 
@@ -49,22 +33,7 @@ RPF_INLINE float rpf_inverse_deviation(float variance, float largest) {
   return deviation > RPF_FLAT_SPREAD * largest ? 1.0f / deviation : 0.0f;
 }
 
-// Mean 0, standard deviation 1. `value` and `mean` are relative to the same shift; a missing value becomes 0.
-RPF_INLINE float rpf_normalize(float value, float mean, float inverse_deviation) {
-  return rpf_is_missing(value) ? 0.0f : (value - mean) * inverse_deviation;
-}
-
 // ---- section 5: mutual information ----------------------------------------------------------------------------------
-
-// Bin of a normalized value, 0 .. 2K: nearest integer, half away from zero, clamped to [-K, K], plus K.
-// `whole` is exact and so is the rest, hence no value is rounded across an edge.
-RPF_INLINE int rpf_bin(float normalized, int half_bins) {
-  const float limit = (float)half_bins;
-  const float magnitude = fabs(normalized) < limit ? fabs(normalized) : limit;
-  const int whole = (int)magnitude;
-  const int nearest = magnitude - (float)whole >= 0.5f ? whole + 1 : whole;
-  return normalized < 0.0f ? half_bins - nearest : half_bins + nearest;
-}
 
 // I(X,Y) in nats from units = S * (sum h_xy log2 h_xy - sum h_x log2 h_x - sum h_y log2 h_y + N log2 N), an integer sum
 // over the table of src/tables.h. Every entry is off by at most half a unit, so a sum of `slack` units or less is
@@ -98,6 +67,53 @@ RPF_INLINE float rpf_beta(float fraction_feature, float growth, float feature_fr
   return fraction_feature * rpf_not_negative(1.0f - growth * feature_fraction_random);
 }
 
+// What section 5 ends with for the color. The same for the features stands in arrays, one value a feature.
+typedef struct {
+  float color_fraction_random[3];  // W_c,i^r
+  float fraction_random;           // W_c^r
+  float alpha[3];
+} rpf_color_weights;
+
+// The sum of `count` values, one after the other.
+RPF_INLINE float rpf_sum(const float* values, uint count) {
+  float sum = 0.0f;
+  for (uint i = 0; i < count; ++i) sum += values[i];
+  return sum;
+}
+
+RPF_INLINE float rpf_mean(const float* values, uint count) {
+  return count == 0 ? 0.0f : rpf_sum(values, count) / (float)count;
+}
+
+// Section 5, second half: mutual information to W, alpha and beta. `information`: every color with 2 position
+// coordinates, the random parameters and the features, then every feature with position and random parameters. The last
+// three arrays are results, one value a feature.
+RPF_INLINE void rpf_weigh_dependencies(const float* information, uint random, uint features, float alpha_factor,
+                                       float growth, rpf_color_weights* color, float* feature_fraction_random,
+                                       float* fraction_feature, float* beta) {
+  float on_position = 0.0f, on_random = 0.0f, on_features = 0.0f;
+  for (uint k = 0; k < features; ++k) fraction_feature[k] = 0.0f;  // D_c^{f,k} until W_c^{f,k} takes its place
+  for (int i = 0; i < 3; ++i) {
+    const float color_on_position = rpf_sum(information, 2);
+    const float color_on_random = rpf_sum(information + 2, random);
+    information += 2 + random;
+    for (uint k = 0; k < features; ++k) fraction_feature[k] += information[k];
+    on_features += rpf_sum(information, features);
+    information += features;
+    on_position += color_on_position;
+    on_random += color_on_random;
+    color->color_fraction_random[i] = rpf_fraction_random(color_on_random, color_on_position);
+    color->alpha[i] = rpf_alpha(alpha_factor, growth, color->color_fraction_random[i]);
+  }
+  color->fraction_random = rpf_sum(color->color_fraction_random, 3) / 3.0f;
+  for (uint k = 0; k < features; ++k) {
+    feature_fraction_random[k] = rpf_fraction_random(rpf_sum(information + 2, random), rpf_sum(information, 2));
+    fraction_feature[k] = rpf_fraction_feature(fraction_feature[k], on_random, on_position, on_features);
+    beta[k] = rpf_beta(fraction_feature[k], growth, feature_fraction_random[k]);
+    information += 2 + random;
+  }
+}
+
 // ---- section 6: filter ----------------------------------------------------------------------------------------------
 
 // What multiplies the squared distances in the exponent: (1 - W_c^r)^2 / (2 sigma^2), with sigma^2 = 8 noise / s
@@ -110,9 +126,6 @@ RPF_INLINE float rpf_sharpness(float fraction_random, float noise, uint samples)
 // A normalized coordinate times this can be subtracted, squared and summed: its coefficient (alpha_i or beta_k) and the
 // sharpness are both inside. One multiplication a neighbor instead of one a pair of samples.
 RPF_INLINE float rpf_distance_scale(float sharpness, float coefficient) { return sqrt(sharpness * coefficient); }
-
-// w_ij (T 5.3 with 5.10) from the sum of squared scaled differences.
-RPF_INLINE float rpf_weight(float squared_distance) { return rpf_exp(-squared_distance); }
 
 // c''_i (T 5.11), held inside the range of the colors it averages: rounding cannot leave the convex hull.
 RPF_INLINE float rpf_filtered(float weighted_sum, float weight_sum, float smallest, float largest) {

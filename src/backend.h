@@ -7,23 +7,21 @@
 #include <vector>
 
 #include "frame.h"
+#include "pass.h"
 #include "plan.h"
 #include "trace.h"
 
 namespace rpf {
 
-/// What the filter found at a pixel in the latest pass; the driver averages it for the report.
-struct PixelStatistics {
-  std::uint32_t drawn = 0;      ///< candidates drawn
-  std::uint32_t neighbors = 0;  ///< N; 0: not filtered or no samples
-  float fraction_random = 0;    ///< W_c^r
-  float alpha = 0, beta = 0;    ///< means over the channels
-};
+/// What the filter found at a pixel in the latest pass.
+using PixelStatistics = kernel::rpf_pixel_statistics;
 
 class Backend {
  public:
   virtual ~Backend() = default;
 
+  /// Its name, with the device it runs on, for example "opencl (pthread-skylake-avx512)".
+  virtual std::string description() const = 0;
   /// Called once, before anything else. Frame and plan outlive the backend; `colors` is c' of the first pass,
   /// [sample][carried].
   virtual void load(const Frame& frame, std::vector<float> colors, const Plan& plan) = 0;
@@ -31,9 +29,8 @@ class Backend {
   virtual void run(int pass, const Window& tile) = 0;
   /// Ends a pass: its result becomes the input c' of the next.
   virtual void end_pass() = 0;
-  /// The mean of every pixel's samples as after the latest ended pass, scaled radiance: [pixel][carried]; 0 where there
-  /// are none.
-  virtual std::vector<float> resolve() = 0;
+  /// The samples' colors as after the latest ended pass, scaled radiance: [sample][carried].
+  virtual const std::vector<float>& colors() const = 0;
   /// [pixel], of the latest pass run.
   virtual const std::vector<PixelStatistics>& statistics() const = 0;
   /// Peak bytes of scratch memory beside frame and result.
@@ -42,7 +39,12 @@ class Backend {
   virtual PixelTrace trace(int pass, std::uint32_t pixel) = 0;
 };
 
-/// Creates a backend by name. Throws Error(usage) for an unknown name, Error(device) where it cannot work.
-std::unique_ptr<Backend> make_backend(const std::string& name, int threads);
+/// Creates the backend that Settings::backend and Settings::device ask for; "auto" is OpenCL where a device passes the
+/// self-test, else the reference, whose description then says why. Throws Error(usage) for an unknown name,
+/// Error(device) where it cannot work.
+std::unique_ptr<Backend> make_backend(const Settings& settings);
+
+/// The threads that the settings stand for: all cores of the affinity mask where they do not say.
+int thread_count(const Settings& settings);
 
 }  // namespace rpf

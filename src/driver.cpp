@@ -6,6 +6,7 @@
 #include "memory.h"
 #include "progress_meter.h"
 #include "provenance.h"
+#include "resolve.h"
 #include "rpf/error.h"
 
 namespace rpf {
@@ -87,16 +88,14 @@ std::size_t color_channels(const PreparedFrame& prepared) {
 class Run {
  public:
   Run(SampleBuffer samples, const Settings& settings, const Control& control)
-      : settings_(settings),
-        control_(control),
-        threads_(settings.threads > 0 ? settings.threads : available_threads()) {
+      : settings_(settings), control_(control), threads_(thread_count(settings)) {
     samples.validate();
     validate(settings);
     geometry_.data_window = settings.crop.value_or(samples.data_window);
     geometry_.display_window = samples.display_window;
     geometry_.metadata = samples.metadata;
     check_memory(samples, settings);
-    backend_ = make_backend(settings.backend, threads_);
+    backend_ = make_backend(settings);
     prepared_ = prepare(std::move(samples), settings);
     plan_ = make_plan(prepared_.facts, settings);
   }
@@ -105,12 +104,12 @@ class Run {
     ProgressMeter meter(plan_, control_);
     Result result;
     backend_->load(prepared_.frame, std::move(prepared_.colors), plan_);
-    Pixels pixels = backend_->resolve();
+    Pixels pixels = resolved();
     const double plain_energy = energy(pixels, prepared_.facts);
     for (int pass = 0; pass < static_cast<int>(plan_.passes.size()); ++pass) {
       if (before_pass) before_pass(*backend_, plan_, pass);
       PassReport report = run_pass(pass, meter);
-      pixels = backend_->resolve();
+      pixels = resolved();
       const double kept = energy(pixels, prepared_.facts);
       report.energy = kept == plain_energy ? 1 : kept / plain_energy;
       result.report.passes.push_back(report);
@@ -121,6 +120,8 @@ class Run {
   }
 
  private:
+  Pixels resolved() const { return resolve(prepared_.frame, backend_->colors(), plan_.carried); }
+
   PassReport run_pass(int pass, ProgressMeter& meter) {
     const PassPlan& plan = plan_.passes[static_cast<std::size_t>(pass)];
     const double start = meter.seconds();
@@ -138,7 +139,7 @@ class Run {
   }
 
   void describe(Result& result, const Pixels& pixels) {
-    result.report.backend = settings_.backend;
+    result.report.backend = backend_->description();
     result.report.random = plan_.variables.random_names;
     result.report.features = plan_.variables.feature_names;
     result.report.dropped = prepared_.dropped;

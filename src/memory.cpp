@@ -41,11 +41,10 @@ std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, 
   Settings without_crop = settings;
   without_crop.crop.reset();
   const Plan plan = make_plan(facts, without_crop);
-  const int threads = settings.threads > 0 ? settings.threads : available_threads();
   // The buffer that was read becomes the records, unless these are longer; then both exist for a moment.
   const std::uint64_t read = layout.size(), records = facts.variables.count();
   const std::uint64_t floats = records <= read ? read : read + records;
-  return filtering_bytes(size, floats, facts.carried) + make_backend(settings.backend, threads)->scratch_bytes(plan);
+  return filtering_bytes(size, floats, facts.carried) + make_backend(settings)->scratch_bytes(plan);
 }
 
 void check_memory(const SampleBuffer& samples, const Settings& settings) {

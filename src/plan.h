@@ -64,6 +64,9 @@ struct Plan {
   std::vector<PassPlan> passes;
 };
 
+/// Whether a group of features is of the second hit: its name ends in 2, as in "N2".
+bool is_second_hit(const std::string& group);
+
 /// What the plan needs to know of the prepared frame.
 struct FrameFacts {
   int width = 0, height = 0;

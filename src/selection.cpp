@@ -71,6 +71,9 @@ Selection select_channels(const SampleLayout& layout, const Settings& settings) 
     throw Error(ErrorKind::usage,
                 "feature 'pixel' is not a feature; --random pixel models the position inside the pixel");
   selection.features = pick(features, settings.features.value_or(Groups{all_groups}), "feature");
+  // Second hits take no part in the rejection test: behind the others they need not be read for it.
+  std::stable_partition(selection.features.begin(), selection.features.end(),
+                        [](const std::string& slot) { return !is_second_hit(group_of(slot)); });
   return selection;
 }
 

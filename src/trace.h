@@ -4,16 +4,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "rpf_math.h"
+
 namespace rpf {
 
 /// What section 5 ends with. m features.
 struct FilterWeights {
-  float color_fraction_random[3] = {0, 0, 0};  ///< W_c,i^r
+  kernel::rpf_color_weights color = {};
   std::vector<float> feature_fraction_random;  ///< [m] W_f,k^r
   std::vector<float> fraction_feature;         ///< [m] W_c^{f,k}
-  float fraction_random = 0;                   ///< W_c^r
-  float alpha[3] = {0, 0, 0};
-  std::vector<float> beta;  ///< [m]
+  std::vector<float> beta;                     ///< [m]
 };
 
 /// Variables are in the order of Variables (plan.h); V is their number, m the number of features, N of neighbors.

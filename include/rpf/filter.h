@@ -48,7 +48,7 @@ struct InputNote {
 };
 
 struct Report {
-  std::string backend;
+  std::string backend;                        ///< that ran, with its device: "cpu", "opencl (device)"; for "auto" why
   std::vector<std::string> random, features;  ///< modeled channels
   std::vector<std::string> dropped;           ///< selected channels that are constant over the frame
   std::vector<InputNote> notes;
@@ -78,7 +78,7 @@ struct FrameSize {
 /// filter() does.
 std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings);
 
-/// The names accepted by Settings::backend, for example {"cpu"}.
+/// The names accepted by Settings::backend, "auto" among them.
 std::vector<std::string> backend_names();
 
 /// The number of threads that 0 stands for: cores in the process's affinity mask.

@@ -17,7 +17,8 @@ enum class Profile {
 };
 
 struct Settings {
-  std::string backend = "cpu";
+  std::string backend = "cpu";  ///< one of backend_names()
+  std::string device;           ///< OpenCL device: index or part of a name (devices.h); empty: the first
   Profile profile = Profile::thesis;
 
   /// One pass per entry: odd box widths, 1 .. 255 pixels. Empty: no pass, the result is the plain mean of the samples.

@@ -138,6 +138,7 @@ int run(const FilterOptions& options) {
   const Result result = filter_with_progress(std::move(samples), settings, options.quiet ? "never" : options.progress);
   write_results(options, result);
   if (!options.quiet) print_notes(result.report);
+  if (!options.quiet && settings.backend == "auto") fmt::print("backend {}\n", result.report.backend);
   if (options.verbose) print_report(result.report);
   if (!options.quiet)
     fmt::print("{}: {}x{} pixels, {} samples, {} passes in {:.1f} s ({:.1f} CPU seconds, {:.1f} of them reading)\n",

@@ -6,6 +6,7 @@
 
 #include "cli/environment.h"
 #include "rpf/error.h"
+#include "rpf/filter.h"
 
 namespace rpf::cli {
 namespace {
@@ -94,7 +95,16 @@ void add_tuning_options(CLI::App& app, FilterOptions& o) {
 
 void add_run_options(CLI::App& app, FilterOptions& o) {
   const std::string group = "Running";
-  app.add_option("--backend", o.settings.backend, "cpu")->envname("RPF_BACKEND")->capture_default_str()->group(group);
+  app.add_option(
+         "--backend", o.settings.backend,
+         "cpu: the scalar reference; opencl: the same bits, faster; auto: opencl where a device passes its test")
+      ->check(CLI::IsMember(backend_names()))
+      ->envname("RPF_BACKEND")
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("-d,--device", o.settings.device, "OpenCL device: index of `rpf devices` or a part of its name")
+      ->envname("RPF_DEVICE")
+      ->group(group);
   app.add_option("--crop", o.crop, "Filter only this part; its pixels are those of the whole frame")
       ->type_name("WxH+X+Y")
       ->group(group);

@@ -15,10 +15,12 @@ namespace {
 constexpr const char* footer = R"(Examples:
   rpf render.samples.exr -o filtered.exr
   rpf --boxes 21,11,5 --samples-factor 2 --noise 0.002 render.samples.exr -o filtered.png
+  rpf --backend=auto render.samples.exr -o filtered.exr
   rpf info render.samples.exr
   rpf compare before.exr filtered.exr reference.exr --side-by-side picture.png
   rpf merge seed-1.samples.exr seed-2.samples.exr -o both.samples.exr
   rpf convert theirs.exr -o ours.samples.exr
+  rpf scene dof -o dof.samples.exr
 
 Exit codes: 0 ok, 1 internal, 2 usage, 3 input, 4 output, 5 device, 6 memory, 128 + signal when stopped;
 rpf compare --max-error: 1 when an image is above it.)";
@@ -31,19 +33,21 @@ int run(int argc, char** argv) {
   app.footer(footer);
   app.require_subcommand(0, 1);
   const Command filter_command = add_filter_command(app);
-  const Command info_command = add_info_command(app);
-  const Command compare_command = add_compare_command(app);
-  const Command merge_command = add_merge_command(app);
-  const Command convert_command = add_convert_command(app);
+  const std::pair<const char*, Command> subcommands[] = {
+      {"info", add_info_command(app)},
+      {"compare", add_compare_command(app)},
+      {"merge", add_merge_command(app)},
+      {"convert", add_convert_command(app)},
+      {"scene", add_scene_command(app)},
+      {"devices", add_devices_command(app)},
+  };
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : static_cast<int>(ErrorKind::usage);
   }
-  if (app.got_subcommand("info")) return info_command();
-  if (app.got_subcommand("compare")) return compare_command();
-  if (app.got_subcommand("merge")) return merge_command();
-  if (app.got_subcommand("convert")) return convert_command();
+  for (const auto& [name, command] : subcommands)
+    if (app.got_subcommand(name)) return command();
   return filter_command();
 }
 

@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "cpu/neighborhood.h"
 #include "cpu/statistics.h"
@@ -23,17 +22,13 @@ struct Workspace {
   FilterScratch filter;
 };
 
-float mean(const float* values, std::size_t count) {
-  return count == 0 ? 0.0F : std::accumulate(values, values + count, 0.0F) / static_cast<float>(count);
-}
-
 PixelStatistics summarize(const Workspace& w) {
-  PixelStatistics s;
+  PixelStatistics s{};
   s.drawn = static_cast<std::uint32_t>(w.neighborhood.candidates.size());
   s.neighbors = w.neighborhood.size();
-  s.fraction_random = w.weights.fraction_random;
-  s.alpha = mean(w.weights.alpha, 3);
-  s.beta = mean(w.weights.beta.data(), w.weights.beta.size());
+  s.fraction_random = w.weights.color.fraction_random;
+  s.alpha = kernel::rpf_mean(w.weights.color.alpha, 3);
+  s.beta = kernel::rpf_mean(w.weights.beta.data(), static_cast<kernel::uint>(w.weights.beta.size()));
   return s;
 }
 
@@ -46,32 +41,6 @@ void filter_pixel(const Frame& frame, const Plan& plan, int pass, std::uint32_t 
   compute_weights(plan, pass, w.dependencies, w.weights);
   filter_samples(plan, w.neighborhood, frame.samples(pixel), w.weights, colors, w.filter, out, nullptr);
   if (plan.outlier_step) replace_outliers(out, frame.samples(pixel), plan.carried);
-}
-
-/// Weighted mean of a pixel's samples; the plain mean where no sample has a weight.
-void mean_of_samples(const Frame& frame, std::size_t pixel, const std::vector<float>& colors, std::size_t carried,
-                     float* out) {
-  const std::uint32_t first = frame.first_sample[pixel], samples = frame.samples(pixel);
-  const auto is_weighted = [&](float w) { return w > 0; };
-  const bool weighted = !frame.weights.empty() && std::any_of(frame.weights.begin() + first,
-                                                              frame.weights.begin() + first + samples, is_weighted);
-  kernel::rpf_lanes weight_sum;
-  kernel::rpf_lanes_clear(&weight_sum);
-  for (std::uint32_t i = 0; i < samples; ++i)
-    kernel::rpf_lanes_add(&weight_sum, i, weighted ? frame.weights[first + i] : 1.0F);
-  for (std::size_t c = 0; c < carried; ++c) {
-    kernel::rpf_lanes sum;
-    kernel::rpf_lanes_clear(&sum);
-    float smallest = colors[first * carried + c], largest = smallest;
-    for (std::uint32_t i = 0; i < samples; ++i) {
-      const float color = colors[(first + i) * carried + c];
-      smallest = std::min(smallest, color);
-      largest = std::max(largest, color);
-      kernel::rpf_lanes_add(&sum, i, weighted ? color * frame.weights[first + i] : color);
-    }
-    out[c] =
-        kernel::rpf_filtered(kernel::rpf_lanes_total(&sum), kernel::rpf_lanes_total(&weight_sum), smallest, largest);
-  }
 }
 
 }  // namespace
@@ -102,14 +71,6 @@ void CpuBackend::run(int pass, const Window& tile) {
 }
 
 void CpuBackend::end_pass() { colors_.swap(next_colors_); }
-
-std::vector<float> CpuBackend::resolve() {
-  const std::size_t pixels = frame_->first_sample.size() - 1, carried = plan_->carried;
-  std::vector<float> image(pixels * carried, 0.0F);
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
-    if (frame_->samples(pixel) > 0) mean_of_samples(*frame_, pixel, colors_, carried, image.data() + pixel * carried);
-  return image;
-}
 
 PixelTrace CpuBackend::trace(int pass, std::uint32_t pixel) {
   Workspace w;

@@ -10,20 +10,24 @@ namespace rpf {
 
 class CpuBackend : public Backend {
  public:
-  explicit CpuBackend(int threads)
-      : limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
+  /// `reason`: why it is this backend, where that was not the user's choice.
+  explicit CpuBackend(int threads, std::string reason = {})
+      : reason_(std::move(reason)),
+        limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
         threads_(threads),
         arena_(threads) {}
 
+  std::string description() const override { return reason_.empty() ? "cpu" : "cpu (" + reason_ + ")"; }
   void load(const Frame& frame, std::vector<float> colors, const Plan& plan) override;
   void run(int pass, const Window& tile) override;
   void end_pass() override;
-  std::vector<float> resolve() override;
+  const std::vector<float>& colors() const override { return colors_; }
   const std::vector<PixelStatistics>& statistics() const override { return statistics_; }
   std::uint64_t scratch_bytes(const Plan& plan) const override;
   PixelTrace trace(int pass, std::uint32_t pixel) override;
 
  private:
+  std::string reason_;
   tbb::global_control limit_;  ///< lets oneTBB have more threads than cores where the caller asks for them
   int threads_;
   tbb::task_arena arena_;

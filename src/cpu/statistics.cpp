@@ -130,38 +130,13 @@ void measure_dependencies(const Plan& plan, int pass, const Neighborhood& n, Dep
 
 void compute_weights(const Plan& plan, int pass, const Dependencies& dependencies, FilterWeights& out) {
   const std::size_t random = plan.variables.random_names.size(), features = plan.variables.feature_names.size();
-  const float growth = plan.passes[static_cast<std::size_t>(pass)].growth;
-  const float* information = dependencies.information.data();
-  const auto take_sum = [&information](std::size_t pairs) {
-    float sum = 0;
-    for (; pairs > 0; --pairs) sum += *information++;
-    return sum;
-  };
-
-  // D_c^{f,k} adds up over the colors; D_c^p, D_c^r, D_c^f over colors and pairs.
-  std::vector<float> on_feature(features, 0.0F);
-  float on_position = 0, on_random = 0, on_features = 0;
-  for (int i = 0; i < 3; ++i) {
-    const float color_on_position = take_sum(2), color_on_random = take_sum(random);
-    out.color_fraction_random[i] = kernel::rpf_fraction_random(color_on_random, color_on_position);
-    out.alpha[i] = kernel::rpf_alpha(plan.alpha_factor, growth, out.color_fraction_random[i]);
-    for (std::size_t k = 0; k < features; ++k) on_feature[k] += information[k];
-    on_features += take_sum(features);
-    on_position += color_on_position;
-    on_random += color_on_random;
-  }
-  const float* w = out.color_fraction_random;
-  out.fraction_random = (w[0] + w[1] + w[2]) / 3.0F;
-
   out.feature_fraction_random.resize(features);
   out.fraction_feature.resize(features);
   out.beta.resize(features);
-  for (std::size_t k = 0; k < features; ++k) {
-    const float feature_on_position = take_sum(2), feature_on_random = take_sum(random);
-    out.feature_fraction_random[k] = kernel::rpf_fraction_random(feature_on_random, feature_on_position);
-    out.fraction_feature[k] = kernel::rpf_fraction_feature(on_feature[k], on_random, on_position, on_features);
-    out.beta[k] = kernel::rpf_beta(out.fraction_feature[k], growth, out.feature_fraction_random[k]);
-  }
+  kernel::rpf_weigh_dependencies(dependencies.information.data(), static_cast<kernel::uint>(random),
+                                 static_cast<kernel::uint>(features), plan.alpha_factor,
+                                 plan.passes[static_cast<std::size_t>(pass)].growth, &out.color,
+                                 out.feature_fraction_random.data(), out.fraction_feature.data(), out.beta.data());
 }
 
 }  // namespace rpf

@@ -23,7 +23,7 @@ void set_coordinates(const Plan& plan, const Neighborhood& n, float sharpness, c
   scratch.active = 0;
   scratch.coordinates.clear();
   for (std::size_t i = 0; i < 3; ++i)
-    add_coordinate(n, Variables::color + i, kernel::rpf_distance_scale(sharpness, weights.alpha[i]), scratch);
+    add_coordinate(n, Variables::color + i, kernel::rpf_distance_scale(sharpness, weights.color.alpha[i]), scratch);
   for (std::size_t k = 0; k < weights.beta.size(); ++k)
     add_coordinate(n, plan.variables.features() + k, kernel::rpf_distance_scale(sharpness, weights.beta[k]), scratch);
 }
@@ -107,7 +107,7 @@ void filter_samples(const Plan& plan, const Neighborhood& n, std::uint32_t own, 
                     const std::vector<float>& colors, FilterScratch& scratch, float* out,
                     std::vector<float>* weights_out) {
   scratch.padded = (n.size() + RPF_LANES - 1) / RPF_LANES * RPF_LANES;
-  set_coordinates(plan, n, kernel::rpf_sharpness(weights.fraction_random, plan.noise, own), weights, scratch);
+  set_coordinates(plan, n, kernel::rpf_sharpness(weights.color.fraction_random, plan.noise, own), weights, scratch);
   collect_colors(plan, n, colors, scratch);
   WeightedSums sums;
   float block[RPF_LANES];

@@ -6,11 +6,11 @@ are among them.
 """
 from dataclasses import dataclass
 
-NUMERIC, MATH = "kernels/numeric.h", "kernels/rpf_math.h"
+NUMERIC, ELEMENTWISE, MATH = "kernels/numeric.h", "kernels/elementwise.h", "kernels/rpf_math.h"
 NEIGHBORHOOD, STATISTICS = "src/cpu/neighborhood.cpp", "src/cpu/statistics.cpp"
 WEIGHTING, BACKEND = "src/cpu/weighting.cpp", "src/cpu/cpu_backend.cpp"
 PLAN, TABLES, CLEAN = "src/plan.cpp", "src/tables.cpp", "src/clean.cpp"
-PREPARE, DRIVER = "src/prepare.cpp", "src/driver.cpp"
+PREPARE, DRIVER, RESOLVE = "src/prepare.cpp", "src/driver.cpp", "src/resolve.cpp"
 MERGE, RAW_READER, HDR_FLIP = "src/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
 BOTH = "Profiles/BothProfiles."
 
@@ -27,16 +27,16 @@ class Mutant:
 
 MUTANTS = [
     # ---------------------------------------------------------------- the numeric contract
-    Mutant("exp_coefficient", NUMERIC, "1.6666665459e-1f", "1.6666765459e-1f",
+    Mutant("exp_coefficient", ELEMENTWISE, "1.6666665459e-1f", "1.6666765459e-1f",
            "Exp.StaysWithinOneUlpOfLongDouble", "exp: a coefficient is off"),
-    Mutant("exp_underflow", NUMERIC, "RPF_EXP_UNDERFLOW -87.0f", "RPF_EXP_UNDERFLOW -88.0f",
+    Mutant("exp_underflow", ELEMENTWISE, "RPF_EXP_UNDERFLOW -87.0f", "RPF_EXP_UNDERFLOW -88.0f",
            "Exp.IsExactlyOneAtZeroAndZeroBelowTheUnderflow", "exp: subnormal results"),
-    Mutant("lane_tree", NUMERIC, "for (int l = 0; l < width; ++l) lane[l] += lane[l + width];",
+    Mutant("lane_tree", ELEMENTWISE, "for (int l = 0; l < width; ++l) lane[l] += lane[l + width];",
            "for (int l = 0; l < width; ++l) lane[l] = lane[2 * l] + lane[2 * l + 1];",
            "Lanes.TotalIsTheFixedTree", "sums: neighbors are paired instead of halves"),
-    Mutant("lane_of_element", NUMERIC, "sum->lane[j % RPF_LANES]", "sum->lane[j / 2 % RPF_LANES]",
+    Mutant("lane_of_element", ELEMENTWISE, "sum->lane[j % RPF_LANES]", "sum->lane[j / 2 % RPF_LANES]",
            "Lanes.ElementBelongsToItsLaneModuloSixteen", "sums: another lane"),
-    Mutant("hash_constant", NUMERIC, "x = x * 1664525u", "x = x * 1664521u",
+    Mutant("hash_constant", ELEMENTWISE, "x = x * 1664525u", "x = x * 1664521u",
            "Hash.IsThePublishedPcg3d", "random numbers: a constant is off"),
     Mutant("mul_hi", NUMERIC, ">> 32", ">> 31",
            "MulHi.IsTheUpperHalfOfTheProduct", "random numbers: another half of the product"),
@@ -90,14 +90,14 @@ MUTANTS = [
            BOTH + "DependsOnTheSeed/*", "draws: one for all seeds"),
     Mutant("pass_ignored", MATH, "return rpf_hash(seed, pass, pixel);", "return rpf_hash(seed, 0u, pixel);",
            "oracle spp4_thesis draws", "draws: the same in every pass"),
-    Mutant("counters_meet", MATH, "draw * RPF_MAX_ATTEMPTS + attempt", "draw + attempt",
+    Mutant("counters_meet", ELEMENTWISE, "draw * RPF_MAX_ATTEMPTS + attempt", "draw + attempt",
            "oracle spp4_thesis draws", "draws: redraws repeat the next draw"),
     Mutant("history_in_draws", NEIGHBORHOOD, "sampler.draw(number)",
            "sampler.draw(number + static_cast<std::uint32_t>(n.rows.capacity()))",
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "draws: depend on the pixels before in the tile"),
-    Mutant("tolerance_least", MATH, "scaled > minimum ? scaled : minimum", "scaled < minimum ? scaled : minimum",
+    Mutant("tolerance_least", ELEMENTWISE, "scaled > minimum ? scaled : minimum", "scaled < minimum ? scaled : minimum",
            "Tolerance.IsTheLargerOfScaledDeviationAndMinimum", "rejection: smaller of the two"),
-    Mutant("rejection_one_sided", MATH, "return fabs(value - own_mean) > tolerance;", "return value - own_mean > tolerance;",
+    Mutant("rejection_one_sided", ELEMENTWISE, "return fabs(value - own_mean) > tolerance;", "return value - own_mean > tolerance;",
            "Rejection.IsStrictAbsoluteAndIgnoresMissingValues", "rejection: printed formula, no absolute value"),
     Mutant("own_deviation_n_1", NEIGHBORHOOD, "/ static_cast<float>(m.count));", "/ static_cast<float>(m.count - 1));",
            "oracle spp4_thesis own_std", "rejection: n - 1"),
@@ -106,7 +106,7 @@ MUTANTS = [
            "oracle missing_values own_mean", "rejection: missing values count"),
     Mutant("position_scale_ignored", PLAN, "facts.position_diagonal / settings.position_scale", "facts.position_diagonal",
            "Plan.HasToleranceAndFactorOfEveryFeature", "rejection: a of positions"),
-    Mutant("second_hit_rejects", PLAN, "settings.reject_second_hit || !is_second_hit(name)", "settings.reject_second_hit || !name.empty()",
+    Mutant("second_hit_rejects", PLAN, "settings.reject_second_hit || !is_second_hit(group(name))", "settings.reject_second_hit || !name.empty()",
            "oracle second_hit_keep tolerance", "rejection: second hits take part"),
 
     # ---------------------------------------------------------------- 4. normalization
@@ -116,22 +116,22 @@ MUTANTS = [
            "oracle world_offset std", "normalization: large world positions"),
     Mutant("missing_as_zero", STATISTICS, "out.count[v] += missing ? 0 : 1;", "out.count[v] += 1;",
            "oracle missing_values mean", "normalization: missing values count"),
-    Mutant("missing_normalized", MATH, "return rpf_is_missing(value) ? 0.0f : (value - mean)", "return (value - mean)",
+    Mutant("missing_normalized", ELEMENTWISE, "return rpf_is_missing(value) ? 0.0f : (value - mean)", "return (value - mean)",
            "Normalize.LeavesMissingValuesOutAndAtZero", "normalization: missing values stay"),
     Mutant("deviation_n_1", STATISTICS, "static_cast<float>(out.count[v]), out.largest[v]", "static_cast<float>(out.count[v] - 1), out.largest[v]",
            "Normalize.LeavesMissingValuesOutAndAtZero", "normalization: n - 1"),
     Mutant("flat_threshold", MATH, "RPF_FLAT_SPREAD 1e-6f", "RPF_FLAT_SPREAD 1e-8f",
            "Normalization.TreatsTinySpreadAsConstant", "normalization: rounding noise is stretched"),
-    Mutant("mean_kept", MATH, "(value - mean) * inverse_deviation", "value * inverse_deviation",
+    Mutant("mean_kept", ELEMENTWISE, "(value - mean) * inverse_deviation", "value * inverse_deviation",
            "oracle spp4_thesis normalized", "normalization: mean is not 0"),
 
     # ---------------------------------------------------------------- 5. mutual information and weights
-    Mutant("bin_half_to_even", MATH, "magnitude - (float)whole >= 0.5f",
+    Mutant("bin_half_to_even", ELEMENTWISE, "magnitude - RPF_TO_REAL(whole) >= 0.5f",
            "magnitude - (float)whole > 0.5f || (magnitude - (float)whole == 0.5f && whole % 2 == 1)",
            "Bin.RoundsHalfAwayFromZeroAndClamps", "bins: half to even"),
-    Mutant("bin_truncation", MATH, "? whole + 1 : whole;", "? whole : whole;",
+    Mutant("bin_truncation", ELEMENTWISE, "? whole + 1 : whole;", "? whole : whole;",
            "oracle spp4_thesis bins", "bins: truncation"),
-    Mutant("bin_clamp", MATH, "fabs(normalized) < limit ? fabs(normalized) : limit", "fabs(normalized)",
+    Mutant("bin_clamp", ELEMENTWISE, "fabs(normalized) < limit ? fabs(normalized) : limit", "fabs(normalized)",
            "Bin.RoundsHalfAwayFromZeroAndClamps", "bins: a firefly leaves the histogram"),
     Mutant("histogram_cell", STATISTICS, "const std::size_t line = row[x] * bins;", "const std::size_t line = row[x] * (bins - 1);",
            "oracle spp4_thesis histograms", "histograms: rows overlap"),
@@ -149,11 +149,11 @@ MUTANTS = [
            "oracle bias_correction mutual_information", "mutual information: correction ignored"),
     Mutant("color_fraction_swapped", MATH, "return on_random / (", "return on_position / (",
            "oracle spp4_thesis W_c_r", "W: position instead of random"),
-    Mutant("feature_fraction_swapped", STATISTICS, "rpf_fraction_random(feature_on_random, feature_on_position)",
-           "rpf_fraction_random(feature_on_position, feature_on_random)", "oracle spp4_thesis W_f_r", "W: position instead of random"),
+    Mutant("feature_fraction_swapped", MATH, "rpf_fraction_random(rpf_sum(information + 2, random), rpf_sum(information, 2))",
+           "rpf_fraction_random(rpf_sum(information, 2), rpf_sum(information + 2, random))", "oracle spp4_thesis W_f_r", "W: position instead of random"),
     Mutant("fraction_denominator", MATH, "(on_random + on_position + on_features + RPF_EPSILON)", "(on_random + on_features + RPF_EPSILON)",
            "oracle spp4_thesis W_c_f", "W: a term less in (T 5.6)"),
-    Mutant("fraction_of_red", STATISTICS, "(w[0] + w[1] + w[2]) / 3.0F", "w[0]",
+    Mutant("fraction_of_red", MATH, "rpf_sum(color->color_fraction_random, 3) / 3.0f", "color->color_fraction_random[0]",
            "oracle spp4_thesis fraction_random", "W: one channel instead of the mean"),
     Mutant("alpha_factor_ignored", MATH, "1.0f - factor * growth * color_fraction_random", "1.0f - growth * color_fraction_random",
            "AlphaAndBeta.FollowEquation59", "alpha: factor"),
@@ -199,11 +199,11 @@ MUTANTS = [
     # ---------------------------------------------------------------- result, tiles and crop
     Mutant("scale_not_undone", DRIVER, "value / prepared.radiance_scale", "value",
            "oracle spp4_thesis image", "radiance scale: left in the image"),
-    Mutant("weights_ignored", BACKEND, "const bool weighted = !frame.weights.empty()", "const bool weighted = false",
+    Mutant("weights_ignored", RESOLVE, "const bool weighted = !frame.weights.empty()", "const bool weighted = false",
            "Filter.WeightsSamplesInThePixelMean", "pixel mean: weights ignored"),
-    Mutant("zero_weights", BACKEND, "const auto is_weighted = [&](float w) { return w > 0; };", "const auto is_weighted = [&](float) { return true; };",
+    Mutant("zero_weights", RESOLVE, "const auto is_weighted = [&](float w) { return w > 0; };", "const auto is_weighted = [&](float) { return true; };",
            "oracle sample_weight image", "pixel mean: 0 / 0 where no sample has a weight"),
-    Mutant("empty_pixel", BACKEND, "if (frame_->samples(pixel) > 0) mean_of_samples", "if (colors_.size() > 0) mean_of_samples",
+    Mutant("empty_pixel", RESOLVE, "if (frame.samples(pixel) > 0) mean_of_samples", "if (colors.size() > 0) mean_of_samples",
            "oracle spp_varying_thesis image", "pixel mean: 0 / 0 without samples"),
     Mutant("tile_origin", BACKEND, "static_cast<std::size_t>(tile.x) + i % width", "i % width",
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "tiles: tile-relative pixel"),

@@ -138,11 +138,11 @@ void write_dependencies(json& out, const Plan& plan, const PixelTrace& t) {
     out["histograms"][pairs[i]] = std::vector<std::uint32_t>(begin, begin + static_cast<std::ptrdiff_t>(cells));
     out["mutual_information"][pairs[i]] = t.mutual_information[i];
   }
-  out["W_c_r"] = t.filter_weights.color_fraction_random;
+  out["W_c_r"] = t.filter_weights.color.color_fraction_random;
   out["W_f_r"] = t.filter_weights.feature_fraction_random;
   out["W_c_f"] = t.filter_weights.fraction_feature;
-  out["fraction_random"] = t.filter_weights.fraction_random;
-  out["alpha"] = t.filter_weights.alpha;
+  out["fraction_random"] = t.filter_weights.color.fraction_random;
+  out["alpha"] = t.filter_weights.color.alpha;
   out["beta"] = t.filter_weights.beta;
 }
 

@@ -23,8 +23,15 @@ Settings paper_settings() {
   return settings;
 }
 
+/// filter(), and the proof that the backend under test ran it.
+Result run_filter(const SampleBuffer& samples, const Settings& settings, const Control& control = {}) {
+  Result result = filter(samples, settings, control);
+  EXPECT_EQ(result.report.backend.rfind(test::backend_under_test(), 0), 0) << result.report.backend;
+  return result;
+}
+
 std::vector<float> filtered(const SampleBuffer& samples, const Settings& settings, const Control& control = {}) {
-  return filter(samples, settings, control).image.pixels;
+  return run_filter(samples, settings, control).image.pixels;
 }
 
 /// Plain mean of R, G and B of every pixel, in double.
@@ -108,7 +115,7 @@ TEST_P(BothProfiles, DropsAConstantChannelWithoutATrace) {
   SampleBuffer more = samples;
   test::add_channel(more, "feature.flat", 4.5F);
   test::add_channel(more, "random.light.U", 0.5F);
-  const Result result = filter(more, settings());
+  const Result result = run_filter(more, settings());
   EXPECT_EQ(result.image.pixels, filtered(samples, settings()));
   EXPECT_EQ(result.report.dropped, (std::vector<std::string>{"light.U", "N.Y", "flat"}));
 }
@@ -117,7 +124,7 @@ TEST_P(BothProfiles, GivesTheSamePixelsForACrop) {
   const SampleBuffer samples = defocused_edge({40, 30, 2, 5});
   Settings crop = settings();
   crop.crop = Window{17, 11, 6, 5};
-  const Image whole = filter(samples, settings()).image, part = filter(samples, crop).image;
+  const Image whole = run_filter(samples, settings()).image, part = run_filter(samples, crop).image;
   EXPECT_EQ(part.data_window, *crop.crop);
   for (int y = 0; y < 5; ++y)
     for (int x = 0; x < 6; ++x)
@@ -159,7 +166,7 @@ TEST_P(BothProfiles, LeavesOutSamplesThatAreNotFinite) {
   const std::vector<float> expected = filtered(samples, one_pass);
   value_of(samples, 3, "G") = std::numeric_limits<float>::quiet_NaN();
   value_of(samples, 4, "R") = std::numeric_limits<float>::infinity();
-  const Result result = filter(samples, one_pass);
+  const Result result = run_filter(samples, one_pass);
   ASSERT_EQ(result.report.notes.size(), 1U);
   EXPECT_EQ(result.report.notes[0].count, 2U);
   EXPECT_EQ(result.report.notes[0].x, 1);
@@ -190,7 +197,7 @@ TEST(Filter, StaysInsideTheConvexHullOfTheSamples) {
   value_of(samples, 100, "R") = 1e4F;
   Settings settings = small_settings();
   settings.noise = 0.5F;
-  const Image image = filter(samples, settings).image;
+  const Image image = run_filter(samples, settings).image;
   const char* slots[] = {"R", "G", "B"};
   for (std::size_t c = 0; c < 3; ++c) {
     float least = value_of(samples, 0, slots[c]), largest = least;
@@ -242,7 +249,7 @@ TEST(Filter, FiltersAlphaAndFeaturesWithTheSameWeights) {
     value_of(samples, i, "A") = value_of(samples, i, "feature.copy") = value_of(samples, i, "R");
   Settings settings = small_settings();
   settings.filter_features = true;
-  const Result result = filter(samples, settings);
+  const Result result = run_filter(samples, settings);
   EXPECT_EQ(result.image.channels, (std::vector<std::string>{"R", "G", "B", "A"}));
   EXPECT_EQ(result.features.channels.back(), "copy");
   const std::size_t last = result.features.channel_count() - 1;
@@ -256,7 +263,7 @@ TEST(Filter, ClampsNegativeRadianceOnRequest) {
   SampleBuffer samples = defocused_edge();
   for (std::size_t i = 0; i < samples.sample_count(); ++i) value_of(samples, i, "R") = -1.0F;
   Settings settings = small_settings();
-  const Result kept = filter(samples, settings);
+  const Result kept = run_filter(samples, settings);
   EXPECT_EQ(kept.image.pixels[0], -1.0F);
   EXPECT_EQ(kept.report.notes.at(0).count, samples.sample_count());
   settings.clamp_negative = true;
@@ -273,7 +280,7 @@ TEST(Filter, StopsWhenTheCallerSaysSo) {
     return ++calls < 10;
   };
   try {
-    filter(defocused_edge(), small_settings(), control);
+    run_filter(defocused_edge(), small_settings(), control);
     FAIL() << "not cancelled";
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::cancelled);
@@ -282,7 +289,7 @@ TEST(Filter, StopsWhenTheCallerSaysSo) {
 }
 
 TEST(Filter, ReportsWhatThePassesDid) {
-  const Result result = filter(defocused_edge({31, 17, 4, 2}), small_settings());
+  const Result result = run_filter(defocused_edge({31, 17, 4, 2}), small_settings());
   ASSERT_EQ(result.report.passes.size(), 3U);
   const PassReport& first = result.report.passes[0];
   EXPECT_EQ(first.box_width, 9);
@@ -300,7 +307,7 @@ TEST(Filter, RefusesMoreMemoryThanAllowed) {
   Settings settings = small_settings();
   settings.max_memory = 1000;
   try {
-    filter(defocused_edge(), settings);
+    run_filter(defocused_edge(), settings);
     FAIL() << "not refused";
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::memory);
@@ -310,7 +317,7 @@ TEST(Filter, RefusesMoreMemoryThanAllowed) {
 TEST(Filter, RefusesInvalidBuffers) {
   const auto kind_of = [](const SampleBuffer& samples) {
     try {
-      filter(samples, small_settings());
+      run_filter(samples, small_settings());
     } catch (const Error& e) {
       return e.kind();
     }

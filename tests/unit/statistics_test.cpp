@@ -94,8 +94,8 @@ TEST(Weights, OfColorsThatOnlyTheLensMoves) {
   });
   FilterWeights weights;
   compute_weights(plan, 0, dependencies_of(plan, n), weights);
-  EXPECT_NEAR(weights.fraction_random, 1.0, test::tolerance::formula);
-  EXPECT_EQ(weights.alpha[0], 0.0F);
+  EXPECT_NEAR(weights.color.fraction_random, 1.0, test::tolerance::formula);
+  EXPECT_EQ(weights.color.alpha[0], 0.0F);
   EXPECT_EQ(weights.beta[0], 0.0F);  // the color does not depend on the feature
 }
 
@@ -107,8 +107,8 @@ TEST(Weights, OfColorsThatFollowAFeatureAndThePosition) {
   });
   FilterWeights weights;
   compute_weights(plan, 0, dependencies_of(plan, n), weights);
-  EXPECT_EQ(weights.fraction_random, 0.0F);
-  EXPECT_EQ(weights.alpha[2], 1.0F);
+  EXPECT_EQ(weights.color.fraction_random, 0.0F);
+  EXPECT_EQ(weights.color.alpha[2], 1.0F);
   EXPECT_NEAR(weights.fraction_feature[0], 0.5, test::tolerance::formula);  // D_c^f = D_c^p
   EXPECT_NEAR(weights.beta[0], 0.5, test::tolerance::formula);
 }

@@ -1,5 +1,7 @@
 #include "test_frames.h"
 
+#include <cstdlib>
+
 namespace rpf::test {
 namespace {
 
@@ -69,8 +71,14 @@ SampleBuffer defocused_edge(const FrameOptions& options) {
   return samples;
 }
 
+std::string backend_under_test() {
+  const char* name = std::getenv("RPF_TEST_BACKEND");
+  return name == nullptr ? "cpu" : name;
+}
+
 Settings small_settings() {
   Settings settings;
+  settings.backend = backend_under_test();
   settings.box_widths = {9, 5, 3};
   settings.threads = 1;
   return settings;

@@ -33,7 +33,10 @@ struct FrameOptions {
 /// Slots: R G B film.X film.Y random.lens.U random.lens.V random.time feature.N.X/Y/Z feature.P.X/Y/Z feature.albedo.R.
 SampleBuffer defocused_edge(const FrameOptions& options = {});
 
-/// Settings for small frames: box widths 9, 5, 3, one thread.
+/// The backend under test: RPF_TEST_BACKEND, or the reference. CMake registers the functional tests once for each.
+std::string backend_under_test();
+
+/// Settings for small frames: the backend under test, box widths 9, 5, 3, one thread.
 Settings small_settings();
 
 /// Sets one channel of all samples.

@@ -1,0 +1,48 @@
+// The device's view of the samples, and the scratch memory of one work-item.
+//
+// Compiled in (-D): RPF_VARIABLES, RPF_RANDOM, RPF_FEATURES, RPF_BINS, RPF_CARRIED of the plan; RPF_REJECTING, how many
+// features have to be looked at to reject a candidate; RPF_SAMPLES, the samples of every pixel, 0 where they vary.
+#include "pass.h"
+#include "rpf_math.h"
+#include "trace_layout.h"
+
+#define RPF_CHUNKS ((RPF_VARIABLES + RPF_LANES - 1) / RPF_LANES)  // vectors that hold a record
+#define RPF_FEATURE_CHUNKS ((RPF_FEATURES + RPF_LANES - 1) / RPF_LANES)
+#define RPF_REJECTING_CHUNKS ((RPF_REJECTING + RPF_LANES - 1) / RPF_LANES)
+#define RPF_POSITION 3                                            // first position coordinate of a record
+#define RPF_FIRST_FEATURE (5 + RPF_RANDOM)
+#define RPF_PAIRS (3 * (2 + RPF_RANDOM + RPF_FEATURES) + RPF_FEATURES * (2 + RPF_RANDOM))  // rpf_pairs()
+#define RPF_HALF_BINS ((RPF_BINS - 1) / 2)
+#define RPF_NO_SAMPLE 0xFFFFFFFFu
+
+#define RPF_LANE_NUMBERS ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+
+// The band of the frame that is on the device, and the tables of plan and pass. Pixels and samples keep the numbers that
+// they have in the whole frame.
+typedef struct {
+  __global const uint* first_sample;        // [pixel + 1]
+  __global const float* records;            // [sample][RPF_VARIABLES], and RPF_LANES floats more
+  __global const float* colors;             // [sample][RPF_CARRIED] c'
+  __global const char* offsets;             // [65536] of the draws
+  __global const uint* draws;               // [samples of a pixel] candidates to draw
+  __global const int* entropy;              // [n] S n log2 n
+  __global const float* rejection_factor;   // [RPF_FEATURE_CHUNKS * RPF_LANES] H
+  __global const float* minimum_tolerance;  // [RPF_FEATURE_CHUNKS * RPF_LANES] a; infinity: takes no part
+} Frame;
+
+// Scratch of a work-item for up to `capacity` neighbors, `blocks` of RPF_LANES.
+typedef struct {
+  __global uint* candidates;  // [capacity]
+  __global uint* neighbors;   // [capacity]
+  __global float16* columns;  // [RPF_VARIABLES][blocks] values less the shift, then normalized
+  __global uint* planes;      // [RPF_VARIABLES][RPF_BINS][words] one bit a neighbor (statistics.cl)
+  __global float16* colors;   // [RPF_CARRIED][blocks]
+  uint blocks;
+} Slot;
+
+// Every intermediate value of one pixel, where it is asked for.
+typedef struct {
+  __global float* values;     // as trace_layout.h says; null: no trace
+  __global uint* histograms;  // [pair][RPF_BINS][RPF_BINS]
+  rpf_trace_layout at;
+} Trace;

@@ -1,0 +1,193 @@
+// Sections 4 and 5: normalization, histograms and mutual information. A vector holds RPF_LANES neighbors of one variable.
+//
+// Histograms are counted in bit planes: for every variable and bin one bit a neighbor, so that a cell of a joint
+// histogram is popcount(plane of x & plane of y). Bit k of lane l of group g stands for neighbor (32 g + k) 16 + l.
+// Where there is only one group (N <= 512) and it is not full, its lanes are folded together until the words are.
+
+// The bins of a variable that any neighbor is in, and how many are in each. What no neighbor is in costs nothing.
+typedef struct {
+  uint kinds;
+  uchar bin[RPF_BINS];
+  uint count[RPF_BINS];
+} OccupiedBins;
+
+static float lanes_total(float16 sum) {
+  rpf_lanes lanes;
+  vstore16(sum, 0, lanes.lane);
+  return rpf_lanes_total(&lanes);
+}
+
+static float largest_lane(float16 value) {
+  const float8 a = value.lo > value.hi ? value.lo : value.hi;
+  const float4 b = a.lo > a.hi ? a.lo : a.hi;
+  const float2 c = b.lo > b.hi ? b.lo : b.hi;
+  return c.x > c.y ? c.x : c.y;
+}
+
+static int count_lanes(int16 value) {
+  const int8 a = value.lo + value.hi;
+  const int4 b = a.lo + a.hi;
+  return b.x + b.y + b.z + b.w;
+}
+
+// Section 4 for one variable, in place. Returns mean (relative to the shift) and inverse deviation.
+static float2 normalize_column(__global float16* column, uint blocks, float shift) {
+  float16 sum = 0.0f, largest = 0.0f;
+  int16 present = 0;
+  for (uint b = 0; b < blocks; ++b) {
+    const float16 value = column[b], magnitude = fabs(value + shift);
+    sum += rpf_or_zero(value);
+    present += rpf_is_missing(value) ? 0 : 1;
+    largest = magnitude > largest ? magnitude : largest;
+  }
+  const int count = count_lanes(present);
+  float2 moments = 0.0f;
+  if (count > 0) {
+    moments.x = lanes_total(sum) / (float)count;
+    float16 squares = 0.0f;
+    for (uint b = 0; b < blocks; ++b) {
+      const float16 off = column[b] - moments.x;
+      squares += rpf_or_zero(off * off);
+    }
+    moments.y = rpf_inverse_deviation(lanes_total(squares) / (float)count, largest_lane(largest));
+  }
+  for (uint b = 0; b < blocks; ++b) column[b] = rpf_normalize(column[b], moments.x, moments.y);
+  return moments;
+}
+
+// Words of a plane, a power of two or a multiple of 16.
+static uint plane_words(uint neighbors) {
+  const uint blocks = (neighbors + RPF_LANES - 1) / RPF_LANES;
+  if (blocks <= 4) return 2;
+  if (blocks <= 8) return 4;
+  return blocks <= 16 ? 8 : (blocks + 31) / 32 * RPF_LANES;
+}
+
+// Stores one group of a plane; one that is not full is folded to `words` words.
+static void store_plane(__global uint* plane, uint16 bits, uint words, uint blocks) {
+  if (words >= 16) {
+    vstore16(bits, 0, plane);
+    return;
+  }
+  const uint8 halves = bits.lo | bits.hi << blocks;
+  if (words == 8) {
+    vstore8(halves, 0, plane);
+    return;
+  }
+  const uint4 quarters = halves.lo | halves.hi << 2 * blocks;
+  if (words == 4)
+    vstore4(quarters, 0, plane);
+  else
+    vstore2(quarters.lo | quarters.hi << 4 * blocks, 0, plane);
+}
+
+// The bit planes of one normalized column.
+static void fill_planes(__global const float16* column, uint neighbors, uint words, __global uint* planes) {
+  const uint blocks = (neighbors + RPF_LANES - 1) / RPF_LANES;
+  for (uint group = 0; group * 32 < blocks; ++group) {
+    uint16 bits[RPF_BINS];
+#pragma unroll
+    for (int bin = 0; bin < RPF_BINS; ++bin) bits[bin] = 0;
+    const uint end = min(blocks - group * 32, 32u);
+    for (uint k = 0; k < end; ++k) {
+      const uint block = group * 32 + k;
+      const int16 is_neighbor = RPF_LANE_NUMBERS < (int)(neighbors - block * RPF_LANES);
+      const int16 bins = is_neighbor ? rpf_bin(column[block], RPF_HALF_BINS) : -1;
+#pragma unroll
+      for (int bin = 0; bin < RPF_BINS; ++bin) bits[bin] |= as_uint16(bins == bin) & (1u << k);
+    }
+#pragma unroll
+    for (int bin = 0; bin < RPF_BINS; ++bin)
+      store_plane(planes + bin * words + group * RPF_LANES, bits[bin], words, blocks);
+  }
+}
+
+static uint count_bits(__global const ulong* plane, uint words) {
+  ulong count = 0;
+  for (uint w = 0; w < words / 2; ++w) count += popcount(plane[w]);
+  return (uint)count;
+}
+
+static uint count_common_bits(__global const ulong* a, __global const ulong* b, uint words) {
+  ulong count = 0;
+  for (uint w = 0; w < words / 2; ++w) count += popcount(a[w] & b[w]);
+  return (uint)count;
+}
+
+static void find_occupied_bins(__global const uint* planes, uint words, OccupiedBins* out) {
+  out->kinds = 0;
+  for (int bin = 0; bin < RPF_BINS; ++bin) {
+    const uint count = count_bits((__global const ulong*)(planes + bin * words), words);
+    out->bin[out->kinds] = (uchar)bin;
+    out->count[out->kinds] = count;
+    out->kinds += count > 0;
+    if (out->kinds == RPF_BINS) break;
+  }
+}
+
+static uint entropy_of(__global const int* entropy, const OccupiedBins* x) {
+  uint units = 0;
+  for (uint a = 0; a < x->kinds; ++a) units += (uint)entropy[x->count[a]];
+  return units;
+}
+
+static void trace_cell(const Trace* trace, uint pair, const OccupiedBins* x, uint a, const OccupiedBins* y, uint b,
+                       uint count) {
+  if (trace->values) trace->histograms[(pair * RPF_BINS + x->bin[a]) * RPF_BINS + y->bin[b]] = count;
+}
+
+// Sum of S h log2 h over the joint histogram of x and y, modulo 2^32. The last row and column follow from the margins.
+static uint joint_entropy(__global const int* entropy, __global const uint* planes_x, const OccupiedBins* x,
+                          __global const uint* planes_y, const OccupiedBins* y, uint words, const Trace* trace,
+                          uint pair) {
+  const uint last_x = x->kinds - 1, last_y = y->kinds - 1;
+  uint units = 0, left[RPF_BINS];
+  for (uint b = 0; b <= last_y; ++b) left[b] = y->count[b];
+  for (uint a = 0; a < last_x; ++a) {
+    __global const ulong* plane = (__global const ulong*)(planes_x + x->bin[a] * words);
+    uint rest = x->count[a];
+    for (uint b = 0; b < last_y; ++b) {
+      const uint count = count_common_bits(plane, (__global const ulong*)(planes_y + y->bin[b] * words), words);
+      units += (uint)entropy[count];
+      rest -= count;
+      left[b] -= count;
+      trace_cell(trace, pair, x, a, y, b, count);
+    }
+    units += (uint)entropy[rest];
+    left[last_y] -= rest;
+    trace_cell(trace, pair, x, a, y, last_y, rest);
+  }
+  for (uint b = 0; b <= last_y; ++b) {
+    units += (uint)entropy[left[b]];
+    trace_cell(trace, pair, x, last_x, y, b, left[b]);
+  }
+  return units;
+}
+
+// Section 5, first half: information[pair], every color with every variable but the colors, then every feature with
+// position and random parameters.
+static void measure_dependencies(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot,
+                                 const Trace* trace, float* information) {
+  const uint words = plane_words(neighbors), variable_words = RPF_BINS * words;
+  OccupiedBins occupied[RPF_VARIABLES];
+  uint margin[RPF_VARIABLES];
+  for (uint v = 0; v < RPF_VARIABLES; ++v) {
+    __global uint* planes = slot->planes + v * variable_words;
+    fill_planes(slot->columns + v * slot->blocks, neighbors, words, planes);
+    find_occupied_bins(planes, words, &occupied[v]);
+    margin[v] = entropy_of(frame->entropy, &occupied[v]);
+  }
+  const uint all = (uint)frame->entropy[neighbors];
+  uint pair = 0;
+  for (uint x = 0; x < RPF_VARIABLES; x = x == 2 ? RPF_FIRST_FEATURE : x + 1) {
+    const uint end = x < RPF_POSITION ? RPF_VARIABLES : RPF_FIRST_FEATURE;
+    for (uint y = RPF_POSITION; y < end; ++y, ++pair) {
+      const uint joint =
+          joint_entropy(frame->entropy, slot->planes + x * variable_words, &occupied[x],
+                        slot->planes + y * variable_words, &occupied[y], words, trace, pair);
+      information[pair] =
+          rpf_mutual_information((int)(joint - margin[x] - margin[y] + all), pass->entropy_slack,
+                                 pass->nats_per_unit, pass->information_bias, (float)neighbors);
+    }
+  }
+}

@@ -1,0 +1,150 @@
+// Sections 6 and 7: the weighted means of a pixel's samples, and the outlier step after them.
+
+// Own samples that are filtered together: a neighbor's coordinates are read once for all of them.
+#define RPF_BATCH (RPF_SAMPLES > 0 && RPF_SAMPLES < 4 ? RPF_SAMPLES : 4)
+
+// The variables that take part in the distance: colors first, then features, and what their values are multiplied with.
+typedef struct {
+  uint count;
+  uint column[3 + RPF_FEATURES];
+  float scale[3 + RPF_FEATURES];
+} Coordinates;
+
+static void add_coordinate(uint variable, float scale, Coordinates* out) {
+  if (!(scale > 0.0f)) return;
+  out->column[out->count] = variable;
+  out->scale[out->count] = scale;
+  ++out->count;
+}
+
+static void choose_coordinates(const rpf_pass* pass, uint own, const rpf_color_weights* color, const float* beta,
+                               Coordinates* out) {
+  const float sharpness = rpf_sharpness(color->fraction_random, pass->noise, own);
+  out->count = 0;
+  for (uint i = 0; i < 3; ++i) add_coordinate(i, rpf_distance_scale(sharpness, color->alpha[i]), out);
+  for (uint k = 0; k < RPF_FEATURES; ++k)
+    add_coordinate(RPF_FIRST_FEATURE + k, rpf_distance_scale(sharpness, beta[k]), out);
+}
+
+// The neighbors' c' as columns. The first neighbor's stand behind the last one: weight 0, and inside every range.
+static void collect_colors(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot) {
+  const uint blocks = (neighbors + RPF_LANES - 1) / RPF_LANES;
+  for (uint j = 0; j < blocks * RPF_LANES; ++j) {
+    const uint sample = slot->neighbors[j < neighbors ? j : 0];
+    __global const float* color = frame->colors + (size_t)(sample - pass->first_sample) * RPF_CARRIED;
+    for (uint c = 0; c < RPF_CARRIED; ++c) ((__global float*)(slot->colors + c * slot->blocks))[j] = color[c];
+  }
+}
+
+static float smallest_lane(float16 value) { return -largest_lane(-value); }
+
+// The range of one carried channel over the neighbors.
+static float2 range_of(__global const float16* column, uint blocks) {
+  float16 smallest = column[0], largest = column[0];
+  for (uint b = 1; b < blocks; ++b) {
+    smallest = column[b] < smallest ? column[b] : smallest;
+    largest = column[b] > largest ? column[b] : largest;
+  }
+  return (float2)(smallest_lane(smallest), largest_lane(largest));
+}
+
+// Weights of RPF_LANES neighbors for each own sample of the batch.
+static void block_weights(const Slot* slot, const Coordinates* coordinates, float (*own)[3 + RPF_FEATURES], uint block,
+                          uint neighbors, float16* weight) {
+  float16 distance[RPF_BATCH];
+#pragma unroll
+  for (int i = 0; i < RPF_BATCH; ++i) distance[i] = 0.0f;
+  for (uint a = 0; a < coordinates->count; ++a) {
+    const float16 value = slot->columns[coordinates->column[a] * slot->blocks + block] * coordinates->scale[a];
+#pragma unroll
+    for (int i = 0; i < RPF_BATCH; ++i) {
+      const float16 difference = own[i][a] - value;
+      distance[i] += difference * difference;
+    }
+  }
+  const int16 is_neighbor = RPF_LANE_NUMBERS < (int)(neighbors - block * RPF_LANES);
+#pragma unroll
+  for (int i = 0; i < RPF_BATCH; ++i) weight[i] = is_neighbor ? rpf_weight(distance[i]) : 0.0f;
+}
+
+static void trace_weights(const Trace* trace, uint sample, uint neighbors, uint block, float16 weight) {
+  if (!trace->values) return;
+  float lane[RPF_LANES];
+  vstore16(weight, 0, lane);
+  __global float* to = trace->values + trace->at.weights + sample * neighbors + block * RPF_LANES;
+  for (uint l = 0; l < RPF_LANES && block * RPF_LANES + l < neighbors; ++l) to[l] = lane[l];
+}
+
+// Filters RPF_BATCH own samples from `begin`: out[own][RPF_CARRIED]. Behind the last own sample it repeats that one.
+static void filter_batch(const Slot* slot, const Coordinates* coordinates, uint begin, uint own, uint neighbors,
+                         const float2* range, const Trace* trace, __global float* out) {
+  const uint blocks = (neighbors + RPF_LANES - 1) / RPF_LANES;
+  float own_value[RPF_BATCH][3 + RPF_FEATURES];
+  float16 weight_sum[RPF_BATCH], color_sum[RPF_BATCH][RPF_CARRIED], weight[RPF_BATCH];
+  for (uint i = 0; i < RPF_BATCH; ++i) {
+    const uint sample = min(begin + i, own - 1);
+    for (uint a = 0; a < coordinates->count; ++a) {
+      __global const float* column = (__global const float*)(slot->columns + coordinates->column[a] * slot->blocks);
+      own_value[i][a] = column[sample] * coordinates->scale[a];
+    }
+    weight_sum[i] = 0.0f;
+    for (int c = 0; c < RPF_CARRIED; ++c) color_sum[i][c] = 0.0f;
+  }
+  for (uint block = 0; block < blocks; ++block) {
+    block_weights(slot, coordinates, own_value, block, neighbors, weight);
+#pragma unroll
+    for (int i = 0; i < RPF_BATCH; ++i) {
+      weight_sum[i] += weight[i];
+      for (int c = 0; c < RPF_CARRIED; ++c) color_sum[i][c] += weight[i] * slot->colors[c * slot->blocks + block];
+      if (begin + i < own) trace_weights(trace, begin + i, neighbors, block, weight[i]);
+    }
+  }
+  for (uint i = 0; i < RPF_BATCH && begin + i < own; ++i)
+    for (int c = 0; c < RPF_CARRIED; ++c)
+      out[(begin + i) * RPF_CARRIED + c] =
+          rpf_filtered(lanes_total(color_sum[i][c]), lanes_total(weight_sum[i]), range[c].x, range[c].y);
+}
+
+static void filter_samples(const Frame* frame, const rpf_pass* pass, uint own, uint neighbors, const Slot* slot,
+                           const Coordinates* coordinates, const Trace* trace, __global float* out) {
+  collect_colors(frame, pass, neighbors, slot);
+  float2 range[RPF_CARRIED];
+  for (int c = 0; c < RPF_CARRIED; ++c)
+    range[c] = range_of(slot->colors + c * slot->blocks, (neighbors + RPF_LANES - 1) / RPF_LANES);
+  for (uint begin = 0; begin < own; begin += RPF_BATCH)
+    filter_batch(slot, coordinates, begin, own, neighbors, range, trace, out);
+}
+
+// Mean (relative to the shift) and standard deviation of one channel of a pixel's filtered samples.
+static float2 channel_moments(__global const float* filtered, uint samples, uint channel, float shift) {
+  rpf_lanes sum;
+  rpf_lanes_clear(&sum);
+  for (uint i = 0; i < samples; ++i) rpf_lanes_add(&sum, i, filtered[i * RPF_CARRIED + channel] - shift);
+  const float mean = rpf_lanes_total(&sum) / (float)samples;
+  rpf_lanes_clear(&sum);
+  for (uint i = 0; i < samples; ++i) {
+    const float off = (filtered[i * RPF_CARRIED + channel] - shift) - mean;
+    rpf_lanes_add(&sum, i, off * off);
+  }
+  return (float2)(mean, sqrt(rpf_lanes_total(&sum) / (float)samples));
+}
+
+// Section 7, in place.
+static void replace_outliers(__global float* filtered, uint samples) {
+  float shift[3];
+  float2 before[3];
+  for (uint c = 0; c < 3; ++c) {
+    shift[c] = filtered[c];
+    before[c] = channel_moments(filtered, samples, c, shift[c]);
+  }
+  for (uint i = 0; i < samples; ++i) {
+    __global float* sample = filtered + i * RPF_CARRIED;
+    int outlier = 0;
+    for (uint c = 0; c < 3; ++c) outlier |= rpf_is_outlier(sample[c] - shift[c], before[c].x, before[c].y);
+    for (uint c = 0; outlier && c < 3; ++c) sample[c] = shift[c] + before[c].x;
+  }
+  for (uint c = 0; c < 3; ++c) {
+    const float taken = before[c].x - channel_moments(filtered, samples, c, shift[c]).x;
+    for (uint i = 0; i < samples; ++i) filtered[i * RPF_CARRIED + c] += taken;
+  }
+}

@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/environment.h"
+#include "cli/progress_bar.h"
+#include "cli/signals.h"
+#include "rpf/error.h"
+#include "rpf/io.h"
+#include "rpf/scene.h"
+
+namespace rpf::cli {
+namespace {
+
+struct Options {
+  std::string name, output, size = "480x270", sampler = "random", density;
+  int reference = 0;  ///< samples a pixel; 0: not asked for
+  std::vector<float> world_offset = {0, 0, 0};
+  std::string progress = "auto";
+  bool list = false, quiet = false;
+  SceneOptions scene;  ///< the options that need no translation
+};
+
+void parse_size(const std::string& text, SceneOptions& scene) {
+  int used = 0;
+  const bool parsed = std::sscanf(text.c_str(), "%dx%d%n", &scene.width, &scene.height, &used) == 2;
+  if (!parsed || used != static_cast<int>(text.size()))
+    throw Error(ErrorKind::usage, fmt::format("--size {}: WIDTHxHEIGHT is expected, such as 480x270", text));
+}
+
+SceneSampler sampler_of(const std::string& name) {
+  if (name == "stratified") return SceneSampler::stratified;
+  return name == "sobol" ? SceneSampler::sobol : SceneSampler::random;
+}
+
+SceneOptions scene_options(const Options& o) {
+  SceneOptions scene = o.scene;
+  parse_size(o.size, scene);
+  scene.sampler = sampler_of(o.sampler);
+  for (std::size_t axis = 0; axis < 3; ++axis) scene.world_offset[axis] = o.world_offset.at(axis);
+  if (!o.density.empty()) scene.density = read_image(o.density);
+  if (scene.threads == 0) scene.threads = default_threads();
+  if (o.reference > 0) scene.samples = o.reference;
+  return scene;
+}
+
+void print_list() {
+  for (const SceneInfo& scene : scenes()) fmt::print("{:<15} {}\n", scene.name, scene.purpose);
+}
+
+void check_usage(const Options& o) {
+  if (o.name.empty()) throw Error(ErrorKind::usage, "scene: no name; rpf scene --list says which scenes there are");
+  if (o.output.empty())
+    throw Error(ErrorKind::usage, "scene: no output; name the file to write with -o, as in -o dof.samples.exr");
+  check_sample_target(o.output);
+}
+
+/// Shows the progress and lets signals stop the rendering.
+template <class Render>
+auto with_progress(const Options& o, const Render& render) {
+  const SignalGuard guard;
+  ProgressBar bar(o.quiet ? "never" : o.progress);
+  Control control;
+  control.progress = [&](const Progress& progress) {
+    bar.show(progress);
+    return received_signal() == 0;
+  };
+  return render(control);
+}
+
+void write_reference_image(const Options& o, const SceneOptions& scene) {
+  const Image image = with_progress(o, [&](const Control& c) { return render_reference(o.name, scene, c); });
+  const SignalGuard guard;  // a signal now waits until the file is whole
+  write_image(o.output, image);
+  if (o.quiet) return;
+  fmt::print("{}: {}x{} pixels, {} samples a pixel, residual relMSE {:.3g}\n", o.output, scene.width, scene.height,
+             scene.samples, std::get<float>(image.metadata.at("rpf:residualRelMSE")));
+}
+
+void write_sample_file(const Options& o, const SceneOptions& scene) {
+  const SampleBuffer samples = with_progress(o, [&](const Control& c) { return render_scene(o.name, scene, c); });
+  const SignalGuard guard;
+  write_samples(o.output, samples);
+  if (o.quiet) return;
+  fmt::print("{}: {}x{} pixels, {} samples\n", o.output, scene.width, scene.height, samples.sample_count());
+}
+
+int run(const Options& o) {
+  if (o.list) {
+    print_list();
+    return 0;
+  }
+  check_usage(o);
+  const SceneOptions scene = scene_options(o);
+  if (o.reference > 0)
+    write_reference_image(o, scene);
+  else
+    write_sample_file(o, scene);
+  return received_signal() == 0 ? 0 : 128 + received_signal();
+}
+
+void add_options(CLI::App& command, Options& o) {
+  command.add_option("NAME", o.name, "Which scene");
+  command.add_flag("--list", o.list, "Say which scenes there are and what for");
+  command.add_option("-o,--output", o.output, "Sample file to write, or with --reference the image")
+      ->type_name("FILE.exr");
+  command.add_option("--spp", o.scene.samples, "Samples a pixel")->capture_default_str();
+  CLI::Option* reference =
+      command.add_option("--reference", o.reference, "Write the mean of N samples a pixel as an image instead")
+          ->type_name("N")
+          ->check(CLI::Range(2, 1048576));
+  command.add_option("--size", o.size, "Pixels")->type_name("WxH")->capture_default_str();
+  command.add_option("--seed", o.scene.seed, "Seed of the random numbers")->capture_default_str();
+  command.add_option("--sampler", o.sampler, "random, stratified, sobol")
+      ->check(CLI::IsMember({"random", "stratified", "sobol"}))
+      ->capture_default_str();
+  CLI::Option* adaptive =
+      command.add_flag("--adaptive", o.scene.adaptive, "Counts vary: 0 to 2 * spp samples, all equally likely");
+  command.add_option("--density", o.density, "Counts vary: spp * this image's first channel")
+      ->type_name("FILE")
+      ->excludes(adaptive)
+      ->excludes(reference);
+  adaptive->excludes(reference);
+}
+
+void add_world_options(CLI::App& command, Options& o) {
+  command.add_option("--world-scale", o.scene.world_scale, "Positions written are scaled by this")
+      ->capture_default_str();
+  command.add_option("--world-offset", o.world_offset, "and moved by this")
+      ->type_name("X,Y,Z")
+      ->delimiter(',')
+      ->expected(3)
+      ->default_str("0,0,0");
+  command.add_option("-t,--threads", o.scene.threads, "Threads; all cores if not given")
+      ->check(CLI::PositiveNumber)
+      ->envname("RPF_NUM_THREADS");
+  command.add_option("--progress", o.progress, "auto, never, always")
+      ->check(CLI::IsMember({"auto", "never", "always"}))
+      ->capture_default_str();
+  command.add_flag("-q,--quiet", o.quiet, "Only errors");
+}
+
+}  // namespace
+
+Command add_scene_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("scene", "Render a synthetic scene: samples, or a reference");
+  add_options(*command, *options);
+  add_world_options(*command, *options);
+  return [options] { return run(*options); };
+}
+
+}  // namespace rpf::cli

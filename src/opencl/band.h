@@ -1,0 +1,53 @@
+// The part of a frame that is on the device: whole rows, as many as fit.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "frame.h"
+#include "opencl/session.h"
+#include "pass.h"
+
+namespace rpf {
+
+/// Rows of a frame: begin .. end - 1.
+struct Rows {
+  int begin = 0, end = 0;
+  bool contains(const Rows& o) const { return begin <= o.begin && o.end <= end; }
+};
+
+/// What a pass reads and writes, for some rows. On a device that shares the host's memory nothing is copied.
+struct Band {
+  int pass = 0;
+  Rows rows;
+  std::uint32_t first_pixel = 0, first_sample = 0;
+  cl::Buffer first_samples;  ///< [pixel + 1]
+  cl::Buffer records;        ///< [sample][variables]
+  cl::Buffer colors;         ///< [sample][carried] c'
+  cl::Buffer next_colors;    ///< [sample][carried] c''
+  cl::Buffer statistics;     ///< [pixel]
+};
+
+/// The frame-wide arrays that bands are parts of.
+struct BandSource {
+  const Frame& frame;
+  const std::vector<float>& colors;
+  std::vector<float>& next_colors;
+  std::vector<kernel::rpf_pixel_statistics>& statistics;
+  std::size_t carried;
+};
+
+/// Most bytes on the device: of all buffers of a band together, and of one of them.
+struct BandLimit {
+  std::uint64_t total = 0, buffer = 0;
+};
+
+/// Whether these rows can be on the device at once.
+bool fits(const Frame& frame, std::size_t carried, const Rows& rows, const BandLimit& limit);
+
+/// The whole frame where it fits, else as many rows as fit from needed.begin on. `needed` itself fits.
+Rows rows_that_fit(const Frame& frame, std::size_t carried, const Rows& needed, const BandLimit& limit);
+
+Band make_band(Session& session, const BandSource& source, int pass, const Rows& rows);
+
+}  // namespace rpf

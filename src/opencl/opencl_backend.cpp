@@ -1,0 +1,224 @@
+#include "opencl/opencl_backend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "opencl/trace_reader.h"
+
+namespace rpf {
+namespace {
+
+constexpr float unlimited = std::numeric_limits<float>::infinity();
+
+/// Work-items for each compute unit of a device that hides latency by switching between them.
+constexpr std::size_t items_per_gpu_unit = 64;
+
+/// One work-item for each unit that works at once: on a CPU no more than threads are wanted.
+std::size_t work_items(const cl::Device& device, int threads) {
+  const std::size_t units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+  if ((device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0)
+    return std::min(units, static_cast<std::size_t>(std::max(threads, 1)));
+  return units * items_per_gpu_unit;
+}
+
+/// Features up to the last one that can reject a candidate.
+std::size_t rejecting(const Plan& plan) {
+  const auto& tolerance = plan.minimum_tolerance;
+  const auto last = std::find_if(tolerance.rbegin(), tolerance.rend(), [](float a) { return a < unlimited; });
+  return static_cast<std::size_t>(tolerance.rend() - last);
+}
+
+/// The numbers of the plan that are compiled in (frame.cl).
+std::string definitions(const Frame& frame, const Plan& plan) {
+  const std::uint32_t most = most_samples(frame.first_sample);
+  const bool uniform = std::uint64_t{most} * (frame.first_sample.size() - 1) == frame.sample_count();
+  return fmt::format(
+      "-DRPF_VARIABLES={} -DRPF_RANDOM={} -DRPF_FEATURES={} -DRPF_REJECTING={} -DRPF_BINS={} -DRPF_CARRIED={} "
+      "-DRPF_SAMPLES={}",
+      plan.variables.count(), plan.variables.random_names.size(), plan.variables.feature_names.size(), rejecting(plan),
+      2 * plan.half_bins + 1, plan.carried, uniform ? most : 0);
+}
+
+/// One value a feature, filled up to whole vectors with what rejects nothing.
+std::vector<float> padded(std::vector<float> per_feature) {
+  per_feature.resize((per_feature.size() + RPF_LANES - 1) / RPF_LANES * RPF_LANES, unlimited);
+  return per_feature;
+}
+
+/// Candidates to draw for a pixel, by its number of samples.
+std::vector<std::uint32_t> draws_by_samples(const PassPlan& pass, std::uint32_t most) {
+  std::vector<std::uint32_t> draws(std::size_t{most} + 1);
+  for (std::uint32_t samples = 0; samples <= most; ++samples) draws[samples] = pass.neighborhood.draws(samples);
+  return draws;
+}
+
+/// The rows that a pass reads for a tile.
+Rows rows_read(const Plan& plan, int pass, const Window& tile) {
+  const int reach = (plan.passes[static_cast<std::size_t>(pass)].box_width - 1) / 2;
+  return {std::max(tile.y - reach, 0), std::min(tile.y + tile.height + reach, plan.height)};
+}
+
+}  // namespace
+
+OpenClBackend::OpenClBackend(const OpenClOptions& options)
+    : session_(Session::of(find_device(options.device))),
+      band_bytes_(options.band_bytes),
+      items_(work_items(session_.device(), options.threads)) {}
+
+std::string OpenClBackend::description() const {
+  return "opencl (" + session_.device().getInfo<CL_DEVICE_NAME>() + ")";
+}
+
+void OpenClBackend::load(const Frame& frame, std::vector<float> colors, const Plan& plan) {
+  frame_ = &frame;
+  plan_ = &plan;
+  colors_ = std::move(colors);
+  next_colors_ = colors_;
+  statistics_.assign(frame.first_sample.size() - 1, {});
+  band_.reset();
+  tables_.clear();
+  on_device("preparing the filter", [&] {
+    kernel_ = cl::Kernel(session_.program("filter.cl", definitions(frame, plan)), "filter_tile");
+    rejection_factor_ = session_.copy(padded(plan.rejection_factor));
+    minimum_tolerance_ = session_.copy(padded(plan.minimum_tolerance));
+    scratch_ = std::make_unique<Scratch>(session_, plan, items_);
+  });
+}
+
+const OpenClBackend::PassTables& OpenClBackend::tables(int pass) {
+  while (tables_.size() <= static_cast<std::size_t>(pass)) {
+    const PassPlan& p = plan_->passes[tables_.size()];
+    tables_.push_back({session_.copy(p.offsets), session_.copy(draws_by_samples(p, most_samples(frame_->first_sample))),
+                       session_.copy(p.entropy.units)});
+  }
+  return tables_[static_cast<std::size_t>(pass)];
+}
+
+BandLimit OpenClBackend::band_limit() const {
+  const std::uint64_t memory = session_.device().getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  const std::uint64_t scratch = items_ * scratch_->sizes.bytes();
+  const std::uint64_t left = memory > scratch ? memory - scratch : 0;
+  return {band_bytes_ > 0 ? band_bytes_ : left, session_.device().getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>()};
+}
+
+const Band& OpenClBackend::band_for(int pass, const Rows& needed) {
+  if (!band_ || band_->pass != pass || !band_->rows.contains(needed)) {
+    const Rows rows = rows_that_fit(*frame_, plan_->carried, needed, band_limit());
+    band_.reset();
+    band_ = std::make_unique<Band>(
+        make_band(session_, {*frame_, colors_, next_colors_, statistics_, plan_->carried}, pass, rows));
+  }
+  return *band_;
+}
+
+kernel::rpf_pass OpenClBackend::arguments(int pass, const Window& tile, const Band& band) const {
+  const PassPlan& p = plan_->passes[static_cast<std::size_t>(pass)];
+  kernel::rpf_pass a{};
+  a.width = plan_->width;
+  a.height = plan_->height;
+  a.tile_x = tile.x;
+  a.tile_y = tile.y;
+  a.tile_width = tile.width;
+  a.tile_height = tile.height;
+  a.first_pixel = band.first_pixel;
+  a.first_sample = band.first_sample;
+  a.seed = plan_->seed;
+  a.pass = static_cast<std::uint32_t>(pass);
+  a.attempts = plan_->attempts;
+  a.capacity = scratch_->sizes.capacity;
+  a.entropy_slack = plan_->entropy_slack;
+  a.nats_per_unit = p.nats_per_unit;
+  a.information_bias = plan_->information_bias;
+  a.alpha_factor = plan_->alpha_factor;
+  a.growth = p.growth;
+  a.noise = plan_->noise;
+  a.outlier_step = plan_->outlier_step ? 1 : 0;
+  return a;
+}
+
+void OpenClBackend::launch(int pass, const Window& tile, const Band& band, std::size_t items, const Results& results) {
+  const PassTables& t = tables(pass);
+  const cl::Buffer* buffers[] = {&band.first_samples,
+                                 &band.records,
+                                 &band.colors,
+                                 &t.offsets,
+                                 &t.draws,
+                                 &t.entropy,
+                                 &rejection_factor_,
+                                 &minimum_tolerance_,
+                                 &scratch_->candidates,
+                                 &scratch_->neighbors,
+                                 &scratch_->columns,
+                                 &scratch_->planes,
+                                 &scratch_->colors,
+                                 &results.next_colors,
+                                 &results.statistics,
+                                 &results.trace_values,
+                                 &results.trace_histograms};
+  cl_uint number = 0;
+  for (const cl::Buffer* buffer : buffers) kernel_.setArg(number++, *buffer);
+  kernel_.setArg(number, arguments(pass, tile, band));
+  session_.queue().enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(items), cl::NDRange(1));
+  session_.queue().finish();
+}
+
+void OpenClBackend::run(int pass, const Window& tile) {
+  const Rows needed = rows_read(*plan_, pass, tile);
+  if (!fits(*frame_, plan_->carried, needed, band_limit())) {
+    run_halves(pass, tile);
+    return;
+  }
+  on_device("filtering", [&] {
+    const Band& band = band_for(pass, needed);
+    launch(pass, tile, band, items_, {band.next_colors, band.statistics, {}, {}});
+    collect(tile, band);
+  });
+}
+
+void OpenClBackend::run_halves(int pass, const Window& tile) {
+  if (tile.height == 1)
+    throw Error(ErrorKind::device,
+                fmt::format("the device cannot hold the rows that a pass of box width {} reads; use smaller --boxes, "
+                            "leave channels out with --features, or use --backend=cpu",
+                            plan_->passes[static_cast<std::size_t>(pass)].box_width));
+  const int upper = tile.height / 2;
+  run(pass, {tile.x, tile.y, tile.width, upper});
+  run(pass, {tile.x, tile.y + upper, tile.width, tile.height - upper});
+}
+
+void OpenClBackend::collect(const Window& tile, const Band& band) {
+  const std::size_t begin = static_cast<std::size_t>(tile.y) * plan_->width + tile.x;
+  const std::size_t end = static_cast<std::size_t>(tile.y + tile.height - 1) * plan_->width + tile.x + tile.width;
+  const std::size_t color = plan_->carried * sizeof(float);
+  const std::size_t first = frame_->first_sample[begin], last = frame_->first_sample[end];
+  session_.read_back(band.next_colors, (first - band.first_sample) * color, (last - first) * color);
+  session_.read_back(band.statistics, (begin - band.first_pixel) * sizeof(PixelStatistics),
+                     (end - begin) * sizeof(PixelStatistics));
+}
+
+void OpenClBackend::end_pass() {
+  band_.reset();  // it refers to the colors that are exchanged here
+  colors_.swap(next_colors_);
+}
+
+std::uint64_t OpenClBackend::scratch_bytes(const Plan& plan) const { return items_ * ScratchSizes(plan).bytes(); }
+
+PixelTrace OpenClBackend::trace(int pass, std::uint32_t pixel) {
+  const Window tile{static_cast<int>(pixel) % plan_->width, static_cast<int>(pixel) / plan_->width, 1, 1};
+  if (frame_->samples(pixel) == 0) return empty_trace(pass, pixel);
+  return on_device("tracing a pixel", [&] {
+    const Band& band = band_for(pass, rows_read(*plan_, pass, tile));
+    TraceReader reader(session_, *plan_, pass, pixel, frame_->samples(pixel));
+    // The kernel finds a pixel's place in the band; these stand in for the band's, so that nothing changes.
+    const cl::Buffer next_colors = session_.buffer(band.next_colors.getInfo<CL_MEM_SIZE>());
+    const cl::Buffer statistics = session_.buffer(band.statistics.getInfo<CL_MEM_SIZE>());
+    launch(pass, tile, band, 1, {next_colors, statistics, reader.values(), reader.histograms()});
+    const std::size_t own = (frame_->first_sample[pixel] - band.first_sample) * plan_->carried;
+    const auto found = session_.read<PixelStatistics>(statistics, pixel - band.first_pixel, 1).front();
+    return reader.read(*scratch_, found.neighbors, session_.read<float>(next_colors, own, reader.colors()));
+  });
+}
+
+}  // namespace rpf

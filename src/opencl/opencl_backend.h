@@ -1,0 +1,67 @@
+// The OpenCL backend: the kernels of kernels/filter.cl, band by band. The same bits as the reference.
+#pragma once
+
+#include "backend.h"
+#include "opencl/band.h"
+#include "opencl/scratch.h"
+#include "opencl/session.h"
+
+namespace rpf {
+
+/// How a device is used; the defaults are for users, the rest for tests.
+struct OpenClOptions {
+  std::string device;            ///< index or part of a name; empty: the first
+  int threads = 1;               ///< compute units to keep busy, on a device that is a CPU
+  std::uint64_t band_bytes = 0;  ///< most bytes of a band; 0: what the device has
+};
+
+class OpenClBackend : public Backend {
+ public:
+  /// Throws Error(device) where the device is missing or does not keep the numeric contract.
+  explicit OpenClBackend(const OpenClOptions& options);
+
+  std::string description() const override;
+  void load(const Frame& frame, std::vector<float> colors, const Plan& plan) override;
+  void run(int pass, const Window& tile) override;
+  void end_pass() override;
+  const std::vector<float>& colors() const override { return colors_; }
+  const std::vector<PixelStatistics>& statistics() const override { return statistics_; }
+  std::uint64_t scratch_bytes(const Plan& plan) const override;
+  PixelTrace trace(int pass, std::uint32_t pixel) override;
+
+ private:
+  /// What stays on the device for a pass: the plan's tables.
+  struct PassTables {
+    cl::Buffer offsets, draws, entropy;
+  };
+
+  /// What a launch writes. Without a trace its buffers are null.
+  struct Results {
+    cl::Buffer next_colors, statistics, trace_values, trace_histograms;
+  };
+
+  const PassTables& tables(int pass);
+  BandLimit band_limit() const;
+  const Band& band_for(int pass, const Rows& needed);
+  kernel::rpf_pass arguments(int pass, const Window& tile, const Band& band) const;
+  void launch(int pass, const Window& tile, const Band& band, std::size_t items, const Results& results);
+  void run_halves(int pass, const Window& tile);
+  /// Makes what a launch wrote for a tile visible in next_colors_ and statistics_.
+  void collect(const Window& tile, const Band& band);
+
+  Session& session_;
+  std::uint64_t band_bytes_;
+  std::size_t items_;  ///< work-items that run at once
+  const Frame* frame_ = nullptr;
+  const Plan* plan_ = nullptr;
+  std::vector<float> colors_, next_colors_;  ///< c' and c'': [sample][carried]
+  std::vector<PixelStatistics> statistics_;  ///< [pixel]
+
+  cl::Kernel kernel_;
+  cl::Buffer rejection_factor_, minimum_tolerance_;
+  std::vector<PassTables> tables_;  ///< of the passes so far
+  std::unique_ptr<Scratch> scratch_;
+  std::unique_ptr<Band> band_;  ///< last: it refers to the colors
+};
+
+}  // namespace rpf

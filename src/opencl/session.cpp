@@ -1,0 +1,147 @@
+#include "opencl/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "opencl/kernel_cache.h"
+#include "opencl/kernel_source.h"
+#include "opencl/self_test.h"
+
+namespace rpf {
+namespace {
+
+constexpr int no_platform = -1001;  // CL_PLATFORM_NOT_FOUND_KHR of the ICD loader
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+std::string names_of(const std::vector<cl::Device>& devices) {
+  std::string text;
+  for (std::size_t i = 0; i < devices.size(); ++i)
+    text += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, devices[i].getInfo<CL_DEVICE_NAME>());
+  return text;
+}
+
+/// -1 where the text is no index.
+int index_of(const std::string& text, std::size_t count) {
+  const bool digits =
+      !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (!digits || text.size() > 6) return -1;
+  const int index = std::stoi(text);
+  return static_cast<std::size_t>(index) < count ? index : -1;
+}
+
+/// No option that trades accuracy; division and square root correctly rounded where that must be asked for.
+std::string build_options(const cl::Device& device, const std::string& definitions) {
+  const bool asks = (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+  return "-cl-std=CL1.2 -Werror " + std::string(asks ? "-cl-fp32-correctly-rounded-divide-sqrt " : "") + definitions;
+}
+
+}  // namespace
+
+std::vector<cl::Device> all_devices() {
+  prepare_kernel_cache();
+  std::vector<cl::Device> result;
+  try {
+    std::vector<cl::Platform> platforms;
+    cl::Platform::get(&platforms);
+    for (const cl::Platform& platform : platforms) {
+      std::vector<cl::Device> devices;
+      try {
+        platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+      } catch (const cl::Error& e) {
+        if (e.err() != CL_DEVICE_NOT_FOUND) throw;
+      }
+      result.insert(result.end(), devices.begin(), devices.end());
+    }
+  } catch (const cl::Error& e) {
+    if (e.err() != no_platform) throw;
+  }
+  return result;
+}
+
+int find_device(const std::string& wanted) {
+  const std::vector<cl::Device> devices = on_device("listing the devices", all_devices);
+  if (devices.empty())
+    throw Error(
+        ErrorKind::device,
+        "no OpenCL device is there; install one (Debian: apt-get install pocl-opencl-icd) or use --backend=cpu");
+  if (wanted.empty()) return 0;
+  if (const int index = index_of(wanted, devices.size()); index >= 0) return index;
+  int found = -1;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    if (lower(devices[i].getInfo<CL_DEVICE_NAME>()).find(lower(wanted)) == std::string::npos) continue;
+    if (found >= 0)
+      throw Error(ErrorKind::usage,
+                  fmt::format("--device '{}' fits several devices; there are: {}", wanted, names_of(devices)));
+    found = static_cast<int>(i);
+  }
+  if (found < 0)
+    throw Error(ErrorKind::device,
+                fmt::format("--device '{}': no such device; there are: {}", wanted, names_of(devices)));
+  return found;
+}
+
+Session& Session::untested(int device) {
+  static std::mutex mutex;
+  static auto& sessions = *new std::map<int, Session>();  // never destroyed: see the header
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found = sessions.find(device);
+  if (found != sessions.end()) return found->second;
+  return on_device("opening the device", [&]() -> Session& {
+    return sessions.emplace(device, Session(all_devices().at(static_cast<std::size_t>(device)))).first->second;
+  });
+}
+
+Session& Session::of(int device) {
+  static std::map<int, std::string> tested;
+  Session& session = untested(device);
+  const auto found = tested.find(device);
+  const std::string failure =
+      found != tested.end() ? found->second : tested.emplace(device, self_test(session)).first->second;
+  if (!failure.empty())
+    throw Error(
+        ErrorKind::device,
+        fmt::format("device '{}' does not keep the numeric contract: {}; use --backend=cpu or another device of "
+                    "`rpf devices`",
+                    session.device().getInfo<CL_DEVICE_NAME>(), failure));
+  return session;
+}
+
+Session::Session(cl::Device device) : device_(std::move(device)), context_(device_), queue_(context_, device_) {}
+
+const cl::Program& Session::program(const std::string& file, const std::string& definitions) {
+  const std::string key = file + " " + definitions;
+  if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
+  cl::Program program(context_, kernel_source(file));
+  try {
+    program.build(device_, build_options(device_, definitions).c_str());
+  } catch (const cl::Error& e) {
+    throw Error(ErrorKind::device,
+                fmt::format("compiling {} for '{}' failed ({}), please report it; --backend=cpu works without. "
+                            "Options: {}\n{}",
+                            file, device_.getInfo<CL_DEVICE_NAME>(), e.err(), definitions,
+                            program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_)));
+  }
+  return programs_.emplace(key, program).first->second;
+}
+
+cl::Buffer Session::host_buffer(const void* data, std::size_t bytes, cl_mem_flags access) {
+  if (bytes == 0) return buffer(sizeof(float));
+  return cl::Buffer(context_, access | CL_MEM_USE_HOST_PTR, bytes, const_cast<void*>(data));
+}
+
+void Session::read_back(const cl::Buffer& buffer, std::size_t offset, std::size_t bytes) {
+  if (bytes == 0) return;
+  void* mapped = queue_.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_READ, offset, bytes);
+  queue_.enqueueUnmapMemObject(buffer, mapped);
+  queue_.finish();
+}
+
+cl::Buffer Session::buffer(std::size_t bytes) { return cl::Buffer(context_, CL_MEM_READ_WRITE, bytes); }
+
+}  // namespace rpf

@@ -1,0 +1,52 @@
+#include "scene/workforce.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "rpf/error.h"
+
+namespace rpf::scene {
+namespace {
+
+constexpr double samples_a_piece = 100000;  // of one thread: about a tenth of a second
+
+class Meter {
+ public:
+  explicit Meter(const Control& control) : control_(control) {}
+
+  void tell(double fraction) {
+    if (!control_.progress) return;
+    Progress progress;
+    progress.passes = 1;
+    progress.fraction = fraction;
+    progress.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    progress.seconds_left = progress.seconds * (1 - fraction) / fraction;
+    if (!control_.progress(progress)) throw Error(ErrorKind::cancelled, "rendering was cancelled");
+  }
+
+ private:
+  const Control& control_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+void for_all_pixels(const Work& work, const Control& control, const std::function<void(std::size_t)>& render) {
+  const int threads = work.threads > 0 ? work.threads : available_threads();
+  const double pixels_a_piece = samples_a_piece * threads / std::max(work.samples_per_pixel, 1.0);
+  const auto piece =
+      std::max<std::size_t>(control.tile_pixels > 0 ? control.tile_pixels : static_cast<std::size_t>(pixels_a_piece),
+                            static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  Meter meter(control);
+  for (std::size_t begin = 0; begin < work.pixels; begin += piece) {
+    const std::size_t end = std::min(begin + piece, work.pixels);
+    arena.execute([&] { tbb::parallel_for(begin, end, render); });
+    meter.tell(static_cast<double>(end) / static_cast<double>(work.pixels));
+  }
+}
+
+}  // namespace rpf::scene
