@@ -34,12 +34,9 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   const Command filter_command = add_filter_command(app);
   const std::pair<const char*, Command> subcommands[] = {
-      {"info", add_info_command(app)},
-      {"compare", add_compare_command(app)},
-      {"merge", add_merge_command(app)},
-      {"convert", add_convert_command(app)},
-      {"scene", add_scene_command(app)},
-      {"devices", add_devices_command(app)},
+      {"info", add_info_command(app)},   {"compare", add_compare_command(app)},
+      {"merge", add_merge_command(app)}, {"convert", add_convert_command(app)},
+      {"scene", add_scene_command(app)}, {"devices", add_devices_command(app)},
   };
   try {
     app.parse(argc, argv);
