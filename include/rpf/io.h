@@ -1,4 +1,4 @@
-// Files: deep OpenEXR samples in and out, images in and out.
+// Files: samples in and out, as deep OpenEXR or raw floats (docs/file-format.md); images in and out.
 // Every writer fills a temporary file beside the target, checks and syncs it, and renames it: a target is whole or
 // untouched.
 #pragma once
@@ -42,15 +42,17 @@ struct SampleReadOptions {
   std::uint64_t max_memory = 0;
 };
 
-/// Reads header and sample counts only. Throws Error(input) with the file, channel or attribute and what was expected.
+/// Reads header and sample counts only. The content decides what kind of file it is. Throws Error(input) with the file,
+/// channel or attribute and what was expected.
 SampleFileInfo inspect_samples(const std::string& path, const SampleReadOptions& options = {});
 
 /// Reads all channels that fill a slot. Throws Error(input) for a bad file, Error(memory) where the budget is too small
 /// (the text has the need and the limit).
 SampleBuffer read_samples(const std::string& path, const SampleReadOptions& options = {});
 
-/// Writes a deep scan-line OpenEXR file, ZIPS compressed, marked rpf:format="mc-samples"; values survive exactly.
-/// `half_slots`: slots to be stored as half. Throws Error(output), and Error(usage) for a half slot that is not there.
+/// Writes a sample file; values survive exactly. By the extension: ".exr" is deep scan-line OpenEXR, ZIPS compressed,
+/// marked rpf:format="mc-samples"; ".rpf" is raw floats. `half_slots`: slots that OpenEXR is to store as half. Throws
+/// Error(output), and Error(usage) for a half slot that is not there.
 void write_samples(const std::string& path, const SampleBuffer& samples,
                    const std::vector<std::string>& half_slots = {});
 
@@ -64,5 +66,7 @@ void write_image(const std::string& path, const Image& image);
 /// Throws Error(output) where a later write to `path` is known to fail: its folder is missing, it is a folder itself,
 /// or no format goes with its extension. For finding out before an hour of filtering. Leaves nothing.
 void check_target(const std::string& path);
+/// The same for write_samples().
+void check_sample_target(const std::string& path);
 
 }  // namespace rpf

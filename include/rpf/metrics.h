@@ -14,7 +14,8 @@ struct LargestDifference {
 };
 
 /// Errors of an image a against its reference b, over R, G and B of all pixels. The first block is about linear
-/// radiance; the second about what a display shows: both images clamped to [0, 1], then the sRGB transfer function.
+/// radiance; the second about what a display shows: both images clamped to [0, 1], then the sRGB transfer function;
+/// the third about what it shows of them at any exposure, behind the ACES tone curve.
 /// A NaN in the image or its reference makes every mean that includes it NaN.
 struct ImageError {
   double mse = 0;             ///< mean of (a - b)^2; 0 is best
@@ -27,6 +28,9 @@ struct ImageError {
   double psnr = 0;  ///< decibels, peak 1; infinite where the displayed images are equal
   double ssim = 0;  ///< mean structural similarity, at most 1, 1 is best; NaN below 11 pixels of width or height
   double flip = 0;  ///< mean of LDR-FLIP at 67 pixels per degree, [0, 1], 0 is best
+
+  /// Mean of HDR-FLIP, [0, 1], 0 is best: of LDR-FLIP's maximum over exposures that the reference chooses.
+  double hdr_flip = 0;
 };
 
 /// Compares the R, G, B channels by name. Throws Error(input) where sizes differ or a channel is missing.

@@ -49,6 +49,22 @@ struct SampleBuffer {
   void validate() const;
 };
 
+/// A rendering to be merged with others.
+struct SamplePart {
+  std::string name;  ///< what errors call it, for example its file
+  SampleBuffer samples;
+};
+
+/// Joins renderings of one frame with different seeds: in each pixel the samples of the first part, then those of the
+/// second, and so on, unchanged. Display window, order of slots and metadata are the first part's; of two or more parts
+/// the attribute rpf:seeds lists the seeds in place of rpf:seed. Throws Error(input) that names the parts where data
+/// windows or slots differ, where every pixel of two parts shares a sample (they have one seed), or where a part is
+/// invalid; Error(usage) without a part.
+SampleBuffer merge_samples(std::vector<SamplePart> parts);
+
+/// Peak bytes of parts and result in merge_samples. `samples` is the sum over all parts.
+std::uint64_t merging_bytes(std::uint64_t pixels, std::uint64_t samples, std::size_t slots, std::size_t parts);
+
 /// What one column of a sample buffer holds; `rpf info` prints it.
 struct ChannelSurvey {
   std::string slot;

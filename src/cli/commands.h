@@ -12,8 +12,10 @@ using Command = std::function<int()>;
 Command add_filter_command(CLI::App& app);    ///< rpf INPUT -o OUTPUT
 Command add_info_command(CLI::App& app);      ///< rpf info FILE
 Command add_compare_command(CLI::App& app);   ///< rpf compare IMAGE... REFERENCE
-Command add_devices_command(CLI::App& app);   ///< rpf devices
+Command add_merge_command(CLI::App& app);     ///< rpf merge FILE FILE... -o FILE
+Command add_convert_command(CLI::App& app);   ///< rpf convert FILE -o FILE
 Command add_scene_command(CLI::App& app);     ///< rpf scene NAME -o FILE
+Command add_devices_command(CLI::App& app);   ///< rpf devices
 Command add_selftest_command(CLI::App& app);  ///< rpf selftest
 
 }  // namespace rpf::cli

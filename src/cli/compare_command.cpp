@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/compare_report.h"
+#include "cli/filter_options.h"
 #include "cli/heat_map.h"
 #include "cli/picture.h"
 #include "rpf/error.h"
@@ -19,6 +20,7 @@ constexpr int exit_above_limit = 1;
 struct Options {
   std::vector<std::string> files;
   std::string side_by_side;
+  std::string zoom;  ///< of side_by_side; empty: where the first image's error is largest
   std::string diff;
   bool json = false;
   double max_error = std::numeric_limits<double>::infinity();
@@ -39,6 +41,22 @@ Image heat_maps(const std::vector<Image>& images) {
   return with_legend(side_by_side(maps));
 }
 
+/// Counts from the first pixel, while the option counts in the reference's coordinates.
+std::optional<Window> crop_of(const std::string& zoom, const std::vector<Image>& images) {
+  const Window& frame = images.back().data_window;
+  if (zoom == "none") return std::nullopt;
+  if (zoom.empty()) return worst_crop(relative_error_map(images.front(), images.back()));
+  Window crop = window_of("--zoom", zoom);
+  const auto inside = [](std::int64_t offset, int length, int limit) {
+    return offset >= 0 && offset + length <= limit;
+  };
+  const std::int64_t x = std::int64_t{crop.x} - frame.x, y = std::int64_t{crop.y} - frame.y;
+  if (!inside(x, crop.width, frame.width) || !inside(y, crop.height, frame.height))
+    throw Error(ErrorKind::usage, fmt::format("--zoom {}: not inside the reference's data window {}x{}{:+}{:+}", zoom,
+                                              frame.width, frame.height, frame.x, frame.y));
+  return Window{static_cast<int>(x), static_cast<int>(y), crop.width, crop.height};
+}
+
 /// Says which images are above the limit. An error that is no number is above every limit.
 bool above_limit(const Comparison& comparison, double limit) {
   bool above = false;
@@ -57,7 +75,8 @@ int run(const Options& options) {
   std::vector<Image> images;
   for (const std::string& file : options.files) images.push_back(read_image(file));
   const Comparison comparison = compare(options, images);
-  if (!options.side_by_side.empty()) write_image(options.side_by_side, side_by_side(images));
+  if (!options.side_by_side.empty())
+    write_image(options.side_by_side, side_by_side(images, crop_of(options.zoom, images)));
   if (!options.diff.empty()) write_image(options.diff, heat_maps(images));
   fmt::print("{}", options.json ? json_of(comparison) : table_of(comparison));
   return options.limited && above_limit(comparison, options.max_error) ? exit_above_limit : 0;
@@ -68,10 +87,18 @@ int run(const Options& options) {
 Command add_compare_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
-      "compare", "Measure images against a reference: relMSE, MSE, energy, trimmed relMSE, MAE, PSNR, SSIM, FLIP");
+      "compare",
+      "Measure images against a reference: relMSE, MSE, energy, trimmed relMSE, MAE, PSNR, SSIM, FLIP, HDR-FLIP");
   command->add_option("IMAGES", options->files, "Images, the reference last")->required();
-  command->add_option("--side-by-side", options->side_by_side, "Also write all of them in a row")
+  command
+      ->add_option("--side-by-side", options->side_by_side,
+                   "Also write all of them in a row, and a zoomed crop of each below")
       ->type_name("FILE.png");
+  command
+      ->add_option("--zoom", options->zoom,
+                   "The crop of --side-by-side in the reference's coordinates, or none; if not given, where the first "
+                   "image's error is largest")
+      ->type_name("WxH+X+Y");
   command->add_option("--diff", options->diff, "Also write heat maps of the relative squared error, with a legend")
       ->type_name("FILE.png");
   command->add_flag("--json", options->json, "Print JSON in place of the tables");

@@ -15,8 +15,9 @@ constexpr const char* channel_names[3] = {"R", "G", "B"};
 
 std::string error_row(const ComparedImage& image) {
   const ImageError& e = image.error;
-  return fmt::format("{:>12.6f} {:>12.6g} {:>9.4f} {:>12.6f} {:>12.6g} {:>8.2f} {:>8.4f} {:>8.4f}  {}\n", e.relmse,
-                     e.mse, e.energy, e.trimmed_relmse, e.mae, e.psnr, e.ssim, e.flip, image.file);
+  return fmt::format("{:>12.6f} {:>12.6g} {:>9.4f} {:>12.6f} {:>12.6g} {:>8.2f} {:>8.4f} {:>8.4f} {:>8.4f}  {}\n",
+                     e.relmse, e.mse, e.energy, e.trimmed_relmse, e.mae, e.psnr, e.ssim, e.flip, e.hdr_flip,
+                     image.file);
 }
 
 std::string difference_row(const ComparedImage& image) {
@@ -36,7 +37,8 @@ Json json_of_image(const ComparedImage& image) {
             {"MAE", e.mae},
             {"PSNR", e.psnr},
             {"SSIM", e.ssim},
-            {"FLIP", e.flip}};
+            {"FLIP", e.flip},
+            {"HDR_FLIP", e.hdr_flip}};
   for (std::size_t c = 0; c < 3; ++c) {
     const LargestDifference& d = e.largest[c];
     json["largest_difference"][channel_names[c]] = {{"difference", d.difference}, {"x", d.x}, {"y", d.y}};
@@ -47,8 +49,8 @@ Json json_of_image(const ComparedImage& image) {
 }  // namespace
 
 std::string table_of(const Comparison& comparison) {
-  std::string text = fmt::format("{:>12} {:>12} {:>9} {:>12} {:>12} {:>8} {:>8} {:>8}  {}\n", "relMSE", "MSE", "energy",
-                                 "trimmed", "MAE", "PSNR", "SSIM", "FLIP", "image");
+  std::string text = fmt::format("{:>12} {:>12} {:>9} {:>12} {:>12} {:>8} {:>8} {:>8} {:>8}  {}\n", "relMSE", "MSE",
+                                 "energy", "trimmed", "MAE", "PSNR", "SSIM", "FLIP", "HDR_FLIP", "image");
   for (const ComparedImage& image : comparison.images) text += error_row(image);
   text += fmt::format("\n{:>28} {:>28} {:>28}  {}\n", "largest difference of R", "of G", "of B", "image");
   for (const ComparedImage& image : comparison.images) text += difference_row(image);

@@ -42,18 +42,8 @@ std::vector<std::string> groups(const std::string& text) {
   return text == "none" ? std::vector<std::string>{} : split(text);
 }
 
-/// WxH+X+Y as oiiotool writes it; X and Y may be negative (100x50-7+3).
-Window crop_window(const std::string& text) {
-  Window w;
-  int used = 0;
-  const bool parsed = std::sscanf(text.c_str(), "%dx%d%d%d%n", &w.width, &w.height, &w.x, &w.y, &used) == 4;
-  if (!parsed || used != static_cast<int>(text.size()) || w.width <= 0 || w.height <= 0)
-    refuse("--crop", text, "WIDTHxHEIGHT+X+Y is expected, such as 256x128+100+60");
-  return w;
-}
-
 void add_file_options(CLI::App& app, FilterOptions& o) {
-  app.add_option("-i,--input,INPUT", o.input, "Sample file (deep OpenEXR)")->type_name("FILE");
+  app.add_option("-i,--input,INPUT", o.input, "Sample file (deep OpenEXR or raw floats)")->type_name("FILE");
   app.add_option("-o,--output", o.output, "Filtered image; the extension chooses the format (exr, png, ...)")
       ->type_name("FILE");
   app.add_option(
@@ -150,6 +140,15 @@ void add_filter_options(CLI::App& app, FilterOptions& options) {
   add_run_options(app, options);
 }
 
+Window window_of(const std::string& option, const std::string& text) {
+  Window w;
+  int used = 0;
+  const bool parsed = std::sscanf(text.c_str(), "%dx%d%d%d%n", &w.width, &w.height, &w.x, &w.y, &used) == 4;
+  if (!parsed || used != static_cast<int>(text.size()) || w.width <= 0 || w.height <= 0)
+    refuse(option, text, "WIDTHxHEIGHT+X+Y is expected, such as 256x128+100+60");
+  return w;
+}
+
 Settings settings_of(const FilterOptions& o) {
   Settings s = o.settings;
   s.profile = o.profile == "paper" ? Profile::paper : Profile::thesis;
@@ -157,7 +156,7 @@ Settings settings_of(const FilterOptions& o) {
   if (o.samples_factor > 0) s.samples_factor = o.samples_factor;
   if (!o.features.empty()) s.features = groups(o.features);
   if (!o.random.empty()) s.random = groups(o.random);
-  if (!o.crop.empty()) s.crop = crop_window(o.crop);
+  if (!o.crop.empty()) s.crop = window_of("--crop", o.crop);
   s.filter_features = !o.aov.empty();
   if (s.threads == 0) s.threads = default_threads();
   s.max_memory = o.max_memory_mb > 0 ? o.max_memory_mb << 20 : default_memory_limit();

@@ -27,6 +27,9 @@ void add_filter_options(CLI::App& app, FilterOptions& options);
 Settings settings_of(const FilterOptions& options);
 SampleReadOptions read_options_of(const std::vector<std::string>& map, std::uint64_t max_memory);
 
+/// WxH+X+Y as oiiotool writes it; X and Y may be negative (100x50-7+3).
+Window window_of(const std::string& option, const std::string& text);
+
 /// "--map SLOT=CHANNEL", shared by the commands that read sample files.
 void add_map_option(CLI::App& app, std::vector<std::string>& map);
 

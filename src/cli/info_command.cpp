@@ -70,7 +70,7 @@ Command add_info_command(CLI::App& app) {
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("info", "Say what a sample file holds and what filtering it would take");
-  command->add_option("FILE", options->file, "Sample file (deep OpenEXR)")->required();
+  command->add_option("FILE", options->file, "Sample file (deep OpenEXR or raw floats)")->required();
   add_map_option(*command, options->map);
   return [options] {
     const SampleReadOptions read_options = read_options_of(options->map, default_memory_limit());

@@ -18,6 +18,8 @@ constexpr const char* footer = R"(Examples:
   rpf --backend=auto render.samples.exr -o filtered.exr
   rpf info render.samples.exr
   rpf compare before.exr filtered.exr reference.exr --side-by-side picture.png
+  rpf merge seed-1.samples.exr seed-2.samples.exr -o both.samples.exr
+  rpf convert theirs.exr -o ours.samples.exr
   rpf scene dof -o dof.samples.exr
 
 Exit codes: 0 ok, 1 internal, 2 usage, 3 input, 4 output, 5 device, 6 memory, 128 + signal when stopped;
@@ -32,10 +34,9 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   const Command filter_command = add_filter_command(app);
   const std::pair<const char*, Command> subcommands[] = {
-      {"info", add_info_command(app)},
-      {"compare", add_compare_command(app)},
-      {"scene", add_scene_command(app)},
-      {"devices", add_devices_command(app)},
+      {"info", add_info_command(app)},         {"compare", add_compare_command(app)},
+      {"merge", add_merge_command(app)},       {"convert", add_convert_command(app)},
+      {"scene", add_scene_command(app)},       {"devices", add_devices_command(app)},
       {"selftest", add_selftest_command(app)},
   };
   try {

@@ -53,7 +53,7 @@ void check_usage(const Options& o) {
   if (o.name.empty()) throw Error(ErrorKind::usage, "scene: no name; rpf scene --list says which scenes there are");
   if (o.output.empty())
     throw Error(ErrorKind::usage, "scene: no output; name the file to write with -o, as in -o dof.samples.exr");
-  check_target(o.output);
+  check_sample_target(o.output);
 }
 
 /// Shows the progress and lets signals stop the rendering.

@@ -1,5 +1,7 @@
-// Deep scan-line OpenEXR in. Header and chunk table are checked first (exr_structure, header_checks); only then is
-// memory allocated and OpenEXR's reader opened.
+// Header and chunk table are checked first (exr_structure, header_checks); only then is memory allocated and OpenEXR's
+// reader opened.
+#include "io/deep_reader.h"
+
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepScanLineInputFile.h>
 #include <ImfStdIO.h>
@@ -11,8 +13,8 @@
 #include "io/exr_structure.h"
 #include "io/guard.h"
 #include "io/header_checks.h"
+#include "io/reading.h"
 #include "io/row_base.h"
-#include "rpf/io.h"
 
 namespace rpf::io {
 namespace {
@@ -24,13 +26,6 @@ struct CheckedFile {
 };
 
 std::size_t type_size(PixelType type) { return type == PixelType::half_float ? 2 : 4; }
-
-std::vector<std::string> slots_of(const std::vector<SampleFileChannel>& channels) {
-  std::vector<std::string> slots;
-  slots.reserve(channels.size());
-  for (const SampleFileChannel& channel : channels) slots.push_back(channel.slot);
-  return slots;
-}
 
 SampleFileInfo info_of(const std::string& path, const DeepHeader& header, const SampleReadOptions& options) {
   SampleFileInfo info;
@@ -67,16 +62,6 @@ CheckedFile check_file(const std::string& path, const SampleReadOptions& options
 std::uint64_t reader_bytes(const CheckedFile& file) {
   const Window& window = file.info.data_window;
   return window.pixel_count() * 4 + static_cast<std::uint64_t>(window.height) * 40 + file.rows.largest_row_bytes * 3;
-}
-
-void check_budget(const std::string& path, std::uint64_t need, std::uint64_t limit) {
-  constexpr std::uint64_t megabyte = std::uint64_t{1} << 20;
-  if (limit == 0 || need <= limit) return;
-  throw Error(
-      ErrorKind::memory,
-      fmt::format("\"{}\" needs {} MB of memory to read, but the limit is {} MB; raise --max-memory or crop the "
-                  "file",
-                  path, (need + megabyte - 1) / megabyte, limit / megabyte));
 }
 
 // Reads the counts of one row after the other.
@@ -159,21 +144,8 @@ class ValueReader {
   std::vector<char*> pointers_;  ///< [column][x]: where the first sample of the pixel goes
 };
 
-SampleBuffer empty_buffer(const SampleFileInfo& info) {
-  SampleBuffer samples;
-  samples.data_window = info.data_window;
-  samples.display_window = info.display_window;
-  samples.metadata = info.metadata;
-  samples.layout = record_layout(slots_of(info.channels));
-  return samples;
-}
-
 void check_sample_budget(const CheckedFile& file, std::size_t columns, std::uint64_t limit) {
-  if (file.info.sample_count >= std::numeric_limits<std::uint32_t>::max())
-    throw Error(ErrorKind::input,
-                fmt::format("\"{}\" holds {} samples, more than the {} that one buffer takes; crop or "
-                            "split the frame",
-                            file.info.path, file.info.sample_count, std::numeric_limits<std::uint32_t>::max() - 1));
+  check_sample_count(file.info);
   const std::uint64_t pixels = file.info.data_window.pixel_count();
   const std::uint64_t pointers = static_cast<std::uint64_t>(file.info.data_window.width) * columns * sizeof(char*);
   const std::uint64_t values = file.info.sample_count * columns * sizeof(float);
@@ -181,19 +153,16 @@ void check_sample_budget(const CheckedFile& file, std::size_t columns, std::uint
 }
 
 }  // namespace
-}  // namespace rpf::io
 
-namespace rpf {
-
-SampleFileInfo inspect_samples(const std::string& path, const SampleReadOptions& options) {
-  io::CheckedFile checked = io::check_file(path, options);
-  io::check_budget(path, io::reader_bytes(checked), options.max_memory);
-  return io::guard_input(path, [&] {
+SampleFileInfo inspect_deep(const std::string& path, const SampleReadOptions& options) {
+  CheckedFile checked = check_file(path, options);
+  check_budget(path, reader_bytes(checked), options.max_memory);
+  return guard_input(path, [&] {
     Imf::StdIFStream stream(path.c_str());
     Imf::DeepScanLineInputFile file(stream, 0);  // 0: no threads of its own
     SampleFileInfo& info = checked.info;
     info.min_samples = std::numeric_limits<std::uint32_t>::max();
-    io::for_each_row(file, checked, [&](const std::vector<unsigned>& counts) {
+    for_each_row(file, checked, [&](const std::vector<unsigned>& counts) {
       const auto [low, high] = std::minmax_element(counts.begin(), counts.end());
       info.min_samples = std::min(info.min_samples, *low);
       info.max_samples = std::max(info.max_samples, *high);
@@ -203,24 +172,24 @@ SampleFileInfo inspect_samples(const std::string& path, const SampleReadOptions&
   });
 }
 
-SampleBuffer read_samples(const std::string& path, const SampleReadOptions& options) {
-  const io::CheckedFile checked = io::check_file(path, options);
-  SampleBuffer samples = io::empty_buffer(checked.info);
-  io::check_sample_budget(checked, samples.layout.size(), options.max_memory);
-  io::guard_input(path, [&] {
+SampleBuffer read_deep(const std::string& path, const SampleReadOptions& options) {
+  const CheckedFile checked = check_file(path, options);
+  SampleBuffer samples = empty_buffer(checked.info);
+  check_sample_budget(checked, samples.layout.size(), options.max_memory);
+  guard_input(path, [&] {
     Imf::StdIFStream stream(path.c_str());
     Imf::DeepScanLineInputFile file(stream, 0);
     samples.first_sample.reserve(samples.data_window.pixel_count() + 1);
     samples.first_sample.push_back(0);
-    io::for_each_row(file, checked, [&](const std::vector<unsigned>& counts) {
+    for_each_row(file, checked, [&](const std::vector<unsigned>& counts) {
       for (const unsigned count : counts) samples.first_sample.push_back(samples.first_sample.back() + count);
     });
     // All allocations are counted in check_sample_budget().
     samples.values.resize(samples.sample_count() * samples.layout.size());
-    io::ValueReader reader(file, checked, samples);
+    ValueReader reader(file, checked, samples);
     for (int row = 0; row < samples.data_window.height; ++row) reader.read_row(row);
   });
   return samples;
 }
 
-}  // namespace rpf
+}  // namespace rpf::io

@@ -1,4 +1,6 @@
-// Deep scan-line OpenEXR out, through a stream that loses no error.
+// Through a stream that loses no error.
+#include "io/deep_writer.h"
+
 #include <ImfChannelList.h>
 #include <ImfChromaticitiesAttribute.h>
 #include <ImfDeepFrameBuffer.h>
@@ -22,11 +24,12 @@
 #include "io/atomic_file.h"
 #include "io/attributes.h"
 #include "io/checked_writer.h"
+#include "io/deep_reader.h"
 #include "io/guard.h"
 #include "io/near_names.h"
+#include "io/reading.h"
 #include "io/row_base.h"
 #include "rpf/error.h"
-#include "rpf/io.h"
 
 namespace rpf::io {
 namespace {
@@ -157,7 +160,7 @@ class RowSource {
 };
 
 // The output file writes its table of rows when it is destroyed, so it must be gone before writer.finish().
-void write_deep(CheckedWriter& writer, const std::string& path, const SampleBuffer& samples,
+void write_rows(CheckedWriter& writer, const std::string& path, const SampleBuffer& samples,
                 const std::vector<Imf::PixelType>& types) {
   WriterStream stream(writer, path);
   Imf::DeepScanLineOutputFile file(stream, header_of(samples, types), 0);
@@ -169,36 +172,23 @@ void write_deep(CheckedWriter& writer, const std::string& path, const SampleBuff
   }
 }
 
-// Reads header and counts of the file just written, so that a defect of the writer does not replace a good file.
-void check_written(const std::string& path, const std::string& temporary, const SampleBuffer& samples) {
-  SampleReadOptions options;
-  const SampleFileInfo info = inspect_samples(temporary, options);
-  if (info.sample_count != samples.sample_count() || !(info.data_window == samples.data_window))
-    throw Error(ErrorKind::output, fmt::format("\"{}\" was not written correctly: {} of {} samples came back; check "
-                                               "the disk and write it again",
-                                               path, info.sample_count, samples.sample_count()));
-}
-
 }  // namespace
-}  // namespace rpf::io
 
-namespace rpf {
-
-void write_samples(const std::string& path, const SampleBuffer& samples, const std::vector<std::string>& half_slots) {
+void write_deep(const std::string& path, const SampleBuffer& samples, const std::vector<std::string>& half_slots) {
   samples.validate();
-  const auto types = io::types_of(samples.layout, half_slots);
-  io::AtomicFile file(path);  // removed again by whatever is thrown below
-  io::CheckedWriter writer(file.descriptor(), path);
+  const auto types = types_of(samples.layout, half_slots);
+  AtomicFile file(path);  // removed again by whatever is thrown below
+  CheckedWriter writer(file.descriptor(), path);
   try {
-    io::write_deep(writer, path, samples, types);
+    write_rows(writer, path, samples, types);
   } catch (const std::exception& error) {
     writer.finish();  // throws the reason if it was a failed write
     throw Error(ErrorKind::output, fmt::format("\"{}\" cannot be written ({}); correct the samples or their metadata",
-                                               path, io::first_line(error.what())));
+                                               path, first_line(error.what())));
   }
   writer.finish();
-  io::check_written(path, file.temporary_path(), samples);
+  check_read_back(path, inspect_deep(file.temporary_path(), {}), samples);
   file.commit();
 }
 
-}  // namespace rpf
+}  // namespace rpf::io

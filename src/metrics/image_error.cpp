@@ -1,4 +1,5 @@
 #include "metrics/flip.h"
+#include "metrics/hdr_flip.h"
 #include "metrics/pixel_error.h"
 #include "metrics/structural_similarity.h"
 #include "metrics/tone_curve.h"
@@ -20,6 +21,7 @@ ImageError compare_images(const Image& image, const Image& reference) {
   error.psnr = metrics::peak_signal_to_noise(shown);
   error.ssim = metrics::structural_similarity(shown);
   error.flip = metrics::mean(metrics::flip_map({metrics::clamped(pair.image), metrics::clamped(pair.reference)}));
+  error.hdr_flip = metrics::mean(metrics::hdr_flip_map(pair));
   return error;
 }
 

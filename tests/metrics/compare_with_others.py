@@ -43,12 +43,14 @@ def expected(a, b):
     by_pixel = np.sort(relative.mean(axis=2).ravel())
     sa, sb = displayed(a), displayed(b)
     _, flip, _ = flip_evaluator.evaluate(sb.astype(np.float32), sa.astype(np.float32), "LDR")
+    # Negative light counts as 0 here, and is not allowed there.
+    _, hdr_flip, _ = flip_evaluator.evaluate(*(np.maximum(x, 0).astype(np.float32) for x in (b, a)), "HDR")
     return {"relMSE": relative.mean(), "MSE": mean_squared_error(a, b), "energy": a.sum() / b.sum(),
             "trimmed_relMSE": by_pixel[:len(by_pixel) - len(by_pixel) // 1000].mean(), "MAE": np.abs(a - b).mean(),
             "PSNR": peak_signal_noise_ratio(sb, sa, data_range=1),
             "SSIM": structural_similarity(sa, sb, gaussian_weights=True, sigma=1.5, use_sample_covariance=False,
                                           data_range=1, channel_axis=-1),
-            "FLIP": flip}
+            "FLIP": flip, "HDR_FLIP": hdr_flip}
 
 
 def largest_differences(a, b):

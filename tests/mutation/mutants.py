@@ -11,6 +11,7 @@ NEIGHBORHOOD, STATISTICS = "src/cpu/neighborhood.cpp", "src/cpu/statistics.cpp"
 WEIGHTING, BACKEND = "src/cpu/weighting.cpp", "src/cpu/cpu_backend.cpp"
 PLAN, TABLES, CLEAN = "src/plan.cpp", "src/tables.cpp", "src/clean.cpp"
 PREPARE, DRIVER, RESOLVE = "src/prepare.cpp", "src/driver.cpp", "src/resolve.cpp"
+MERGE, RAW_READER, HDR_FLIP = "src/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
 BOTH = "Profiles/BothProfiles."
 
 
@@ -210,4 +211,27 @@ MUTANTS = [
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "tiles: the last band is skipped"),
     Mutant("crop_margin", PLAN, "(pass->box_width - 1) / 2", "(pass->box_width - 1) / 2 - 1",
            BOTH + "GivesTheSamePixelsForACrop/*", "crop: margin one pixel short"),
+
+    # ---------------------------------------------------------------- files: merging and raw samples
+    Mutant("merge_order", MERGE, "merged.record(next[p]));\n    next[p] += count;", "merged.record(next[p]));",
+           "Merge.KeepsEverySampleOfTheFirstThenOfTheSecond", "merge: parts overwrite each other"),
+    Mutant("merge_slots_by_place", MERGE, "if (samples.layout.slots == layout.slots) return;", "return;",
+           "Merge.OrdersTheSlotsAsTheFirstDoes", "merge: columns taken by place, not by name"),
+    Mutant("merge_twice", MERGE, "if (!repeats(a.samples, b.samples)) return;", "return;",
+           "Merge.RefusesTheSameSamplesTwice", "merge: copies count as samples"),
+    Mutant("raw_byte_order", RAW_READER, "b[1] << 8U", "b[1] << 16U",
+           "Raw.IsRecognizedByItsContentAndDescribed", "raw: bytes in another order"),
+    Mutant("raw_unused_plane", RAW_READER, "begin += samples.sample_count() * word;",
+           "begin += channel.slot.empty() ? 0 : samples.sample_count() * word;",
+           "Raw.AliasesAndMapWorkAndUnusedChannelsAreSkipped", "raw: planes of unused channels are not skipped"),
+    Mutant("raw_counts_unchecked", RAW_READER, "if (sum != expected) fail();", "",
+           "RawRefusals.EveryTruncationAndEveryByteMore", "raw: fewer samples than the file holds"),
+
+    # ---------------------------------------------------------------- metrics
+    Mutant("hdr_flip_least", HDR_FLIP, "return std::max(a, b);", "return std::min(a, b);",
+           "HdrFlip.IsThatOfItsAuthors", "HDR-FLIP: the least error instead of the largest"),
+    Mutant("hdr_flip_median", HDR_FLIP, "luminances.size() / 2)", "luminances.size() / 2 - 1)",
+           "ExposureRange.ReachesFromTheBrightestPixelToTheMedian", "HDR-FLIP: the lower median"),
+    Mutant("convolution_border", "src/metrics/convolution.cpp", "std::fill_n(padded.end() - radius, radius, row[width - 1]);", "",
+           "HdrFlip.IsThatOfItsAuthors", "metrics: black beyond the right border"),
 ]

@@ -27,7 +27,10 @@ constexpr double pixel_mean = 1e-6;
 
 /// FLIP of black and white against the published colors of green and blue, which have four decimals.
 constexpr double flip = 1e-5;
-/// FLIP in double against flip-evaluator in float; measured: at most 4.3e-7.
+/// FLIP and HDR-FLIP in double against flip-evaluator in float; measured: at most 4.3e-7.
 constexpr double flip_in_single_precision = 2e-6;
+
+/// HDR-FLIP of light in another unit: exposures near 10 stops are rounded to 2^-50, and FLIP has slopes below 1000.
+constexpr double exposure_rounding = 1e-11;
 
 }  // namespace rpf::test::tolerance

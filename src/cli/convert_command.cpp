@@ -1,0 +1,28 @@
+#include "cli/commands.h"
+#include "cli/sample_options.h"
+#include "rpf/error.h"
+
+namespace rpf::cli {
+namespace {
+
+int run(const SampleFileOptions& options) {
+  if (options.inputs.size() != 1)
+    throw Error(ErrorKind::usage, "convert: one sample file is expected; rpf merge joins several");
+  const std::string& input = options.inputs.front();
+  const SampleReadOptions read_options = read_options_of(options);
+  const SampleFileInfo file = inspect_samples(input, read_options);
+  check_sample_target(options.output);
+  return write_and_tell(options.output, read_samples(input, read_options), half_slots_of({file}));
+}
+
+}  // namespace
+
+Command add_convert_command(CLI::App& app) {
+  auto options = std::make_shared<SampleFileOptions>();
+  CLI::App* command = app.add_subcommand(
+      "convert", "Write samples as deep OpenEXR (.exr) or raw floats (.rpf), with the slots' own names");
+  add_sample_file_options(*command, *options);
+  return [options] { return run(*options); };
+}
+
+}  // namespace rpf::cli

@@ -1,0 +1,52 @@
+#include "cli/sample_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/environment.h"
+#include "cli/filter_options.h"
+#include "cli/signals.h"
+
+namespace rpf::cli {
+namespace {
+
+bool is_half(const SampleFileInfo& file, const std::string& slot) {
+  return std::any_of(file.channels.begin(), file.channels.end(), [&](const SampleFileChannel& channel) {
+    return channel.slot == slot && channel.type == PixelType::half_float;
+  });
+}
+
+}  // namespace
+
+void add_sample_file_options(CLI::App& command, SampleFileOptions& options) {
+  command.add_option("INPUT", options.inputs, "Sample file")->required()->type_name("FILE");
+  command.add_option("-o,--output", options.output, "Sample file to write")->required()->type_name("FILE");
+  add_map_option(command, options.map);
+  command.add_option("--max-memory", options.max_memory_mb, "Memory limit in MB")
+      ->check(CLI::PositiveNumber)
+      ->envname("RPF_MAX_MEMORY_MB");
+}
+
+SampleReadOptions read_options_of(const SampleFileOptions& options) {
+  return read_options_of(options.map, options.max_memory_mb > 0 ? options.max_memory_mb << 20 : default_memory_limit());
+}
+
+std::vector<std::string> half_slots_of(const std::vector<SampleFileInfo>& files) {
+  std::vector<std::string> slots;
+  for (const SampleFileChannel& channel : files.front().channels)
+    if (!channel.slot.empty() && std::all_of(files.begin(), files.end(),
+                                             [&](const SampleFileInfo& file) { return is_half(file, channel.slot); }))
+      slots.push_back(channel.slot);
+  return slots;
+}
+
+int write_and_tell(const std::string& path, const SampleBuffer& samples, const std::vector<std::string>& half_slots) {
+  const SignalGuard guard;  // a signal now waits until the file is whole
+  write_samples(path, samples, half_slots);
+  fmt::print("{}: {}x{} pixels, {} samples of {} slots\n", path, samples.data_window.width, samples.data_window.height,
+             samples.sample_count(), samples.layout.size());
+  return received_signal() == 0 ? 0 : 128 + received_signal();
+}
+
+}  // namespace rpf::cli

@@ -1,0 +1,15 @@
+// Raw sample files in and out (docs/file-format.md): a line of JSON, sample counts, one plane of floats a channel.
+#pragma once
+
+#include <string>
+
+#include "rpf/io.h"
+
+namespace rpf::io {
+
+/// As inspect_samples(), read_samples() and write_samples() of rpf/io.h, for raw files only.
+SampleFileInfo inspect_raw(const std::string& path, const SampleReadOptions& options);
+SampleBuffer read_raw(const std::string& path, const SampleReadOptions& options);
+void write_raw(const std::string& path, const SampleBuffer& samples);
+
+}  // namespace rpf::io

@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "io/channel_names.h"
+#include "io/guard.h"
+#include "io/header_checks.h"
+#include "io/raw_files.h"
+#include "io/raw_header.h"
+#include "io/reading.h"
+
+namespace rpf::io {
+namespace {
+
+constexpr std::size_t word = 4;            // bytes of a count or a value
+constexpr std::size_t block_words = 4096;  // that are read at once
+
+// A file whose header and size fit together.
+struct CheckedFile {
+  SampleFileInfo info;
+  std::uint64_t planes = 0;  ///< position of the counts; the planes of values follow
+};
+
+/// Calls use(word, index) for `count` little-endian words from `begin` on.
+template <class Use>
+void for_each_word(FileBytes& file, std::uint64_t begin, std::uint64_t count, const char* what, Use use) {
+  std::array<std::uint8_t, block_words * word> block{};
+  for (std::uint64_t done = 0; done < count; done += block_words) {
+    const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(block_words, count - done));
+    file.read(begin + done * word, block.data(), part * word, what);
+    for (std::size_t i = 0; i < part; ++i) {
+      const std::uint8_t* b = block.data() + i * word;
+      use(b[0] | b[1] << 8U | b[2] << 16U | static_cast<std::uint32_t>(b[3]) << 24U, done + i);
+    }
+  }
+}
+
+SampleFileInfo info_of(const FileBytes& file, const RawHeader& header, const SampleReadOptions& options) {
+  SampleFileInfo info;
+  info.path = file.path();
+  info.data_window = header.data_window;
+  info.display_window = header.display_window;
+  info.compression = "none";
+  info.metadata = header.metadata;
+  const std::vector<std::string> slots = assign_slots(file.path(), header.channels, options.slot_map);
+  for (std::size_t c = 0; c < slots.size(); ++c)
+    info.channels.push_back({header.channels[c], slots[c], PixelType::full_float});
+  return info;
+}
+
+/// What the file's size leaves for values says how many samples there are; the counts must agree with it.
+CheckedFile check_file(FileBytes& file, const SampleReadOptions& options) {
+  const RawHeader header = read_raw_header(file);
+  CheckedFile checked{info_of(file, header, options), header.end};
+  check_slots(file.path(), checked.info.channels);
+  const std::uint64_t counts = checked.info.data_window.pixel_count() * word;
+  const std::uint64_t behind = file.size() - header.end, sample_bytes = header.channels.size() * word;
+  if (behind < counts || (behind - counts) % sample_bytes != 0)
+    throw Error(
+        ErrorKind::input,
+        fmt::format("\"{}\" is truncated or damaged: {} bytes follow its header, expected {} for the counts of its "
+                    "dataWindow and a multiple of {} for its channels; copy or write the file again",
+                    file.path(), behind, counts, sample_bytes));
+  checked.info.sample_count = (behind - counts) / sample_bytes;
+  return checked;
+}
+
+/// Calls use(count, pixel) for every pixel. The sum is checked on the way, so that no number of ours can overflow.
+template <class Use>
+void for_each_count(FileBytes& file, const CheckedFile& checked, Use use) {
+  const std::uint64_t expected = checked.info.sample_count;
+  std::uint64_t sum = 0;
+  const auto fail = [&] {
+    throw Error(ErrorKind::input,
+                fmt::format("\"{}\" is truncated or damaged: its counts ask for {} samples {}, but it "
+                            "holds {}; copy or write the file again",
+                            file.path(), sum, sum > expected ? "or more" : "", expected));
+  };
+  for_each_word(file, checked.planes, checked.info.data_window.pixel_count(), "the counts",
+                [&](std::uint32_t count, std::uint64_t pixel) {
+                  sum += count;
+                  if (sum > expected) fail();
+                  use(count, pixel);
+                });
+  if (sum != expected) fail();
+}
+
+void read_plane(FileBytes& file, std::uint64_t begin, std::size_t column, SampleBuffer& samples) {
+  for_each_word(file, begin, samples.sample_count(), "the values", [&](std::uint32_t bits, std::uint64_t sample) {
+    std::memcpy(samples.record(sample) + column, &bits, word);  // bits, so that a NaN keeps its payload
+  });
+}
+
+void check_sample_budget(const CheckedFile& checked, std::size_t columns, std::uint64_t limit) {
+  check_sample_count(checked.info);
+  const std::uint64_t pixels = checked.info.data_window.pixel_count();
+  check_budget(checked.info.path, (checked.info.sample_count * columns + pixels + 1) * word, limit);
+}
+
+}  // namespace
+
+SampleFileInfo inspect_raw(const std::string& path, const SampleReadOptions& options) {
+  return guard_input(path, [&] {
+    FileBytes file(path);
+    CheckedFile checked = check_file(file, options);
+    SampleFileInfo& info = checked.info;
+    info.min_samples = std::numeric_limits<std::uint32_t>::max();
+    for_each_count(file, checked, [&](std::uint32_t count, std::uint64_t) {
+      info.min_samples = std::min(info.min_samples, count);
+      info.max_samples = std::max(info.max_samples, count);
+      info.empty_pixels += count == 0 ? 1 : 0;
+    });
+    return info;
+  });
+}
+
+SampleBuffer read_raw(const std::string& path, const SampleReadOptions& options) {
+  return guard_input(path, [&] {
+    FileBytes file(path);
+    const CheckedFile checked = check_file(file, options);
+    SampleBuffer samples = empty_buffer(checked.info);
+    check_sample_budget(checked, samples.layout.size(), options.max_memory);
+    samples.first_sample.assign(samples.data_window.pixel_count() + 1, 0);
+    for_each_count(file, checked, [&](std::uint32_t count, std::uint64_t pixel) {
+      samples.first_sample[pixel + 1] = samples.first_sample[pixel] + count;
+    });
+    samples.values.resize(samples.sample_count() * samples.layout.size());
+    std::uint64_t begin = checked.planes + samples.data_window.pixel_count() * word;
+    for (const SampleFileChannel& channel : checked.info.channels) {
+      if (!channel.slot.empty()) read_plane(file, begin, *samples.layout.find(channel.slot), samples);
+      begin += samples.sample_count() * word;
+    }
+    return samples;
+  });
+}
+
+}  // namespace rpf::io

@@ -1,0 +1,49 @@
+#include "io/reading.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "io/channel_names.h"
+#include "rpf/error.h"
+
+namespace rpf::io {
+
+void check_budget(const std::string& path, std::uint64_t need, std::uint64_t limit) {
+  constexpr std::uint64_t megabyte = std::uint64_t{1} << 20;
+  if (limit == 0 || need <= limit) return;
+  throw Error(
+      ErrorKind::memory,
+      fmt::format("\"{}\" needs {} MB of memory to read, but the limit is {} MB; raise --max-memory or crop the "
+                  "file",
+                  path, (need + megabyte - 1) / megabyte, limit / megabyte));
+}
+
+void check_sample_count(const SampleFileInfo& info) {
+  if (info.sample_count >= std::numeric_limits<std::uint32_t>::max())
+    throw Error(ErrorKind::input,
+                fmt::format("\"{}\" holds {} samples, more than the {} that one buffer takes; crop or "
+                            "split the frame",
+                            info.path, info.sample_count, std::numeric_limits<std::uint32_t>::max() - 1));
+}
+
+void check_read_back(const std::string& path, const SampleFileInfo& back, const SampleBuffer& samples) {
+  if (back.sample_count != samples.sample_count() || !(back.data_window == samples.data_window))
+    throw Error(ErrorKind::output, fmt::format("\"{}\" was not written correctly: {} of {} samples came back; check "
+                                               "the disk and write it again",
+                                               path, back.sample_count, samples.sample_count()));
+}
+
+SampleBuffer empty_buffer(const SampleFileInfo& info) {
+  SampleBuffer samples;
+  samples.data_window = info.data_window;
+  samples.display_window = info.display_window;
+  samples.metadata = info.metadata;
+  std::vector<std::string> slots;
+  slots.reserve(info.channels.size());
+  for (const SampleFileChannel& channel : info.channels) slots.push_back(channel.slot);
+  samples.layout = record_layout(slots);
+  return samples;
+}
+
+}  // namespace rpf::io

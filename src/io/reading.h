@@ -1,0 +1,24 @@
+// What readers and writers of both kinds of sample files share.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "rpf/io.h"
+
+namespace rpf::io {
+
+/// Throws Error(memory) with the need and the limit, in bytes, where the need is larger; a limit of 0 is none.
+void check_budget(const std::string& path, std::uint64_t need, std::uint64_t limit);
+
+/// Throws Error(input) for more samples than the numbers in SampleBuffer::first_sample can count.
+void check_sample_count(const SampleFileInfo& info);
+
+/// Throws Error(output) where a file just written is not what went in, so that a defect of a writer does not replace a
+/// good file. `back` is what was read of the temporary file.
+void check_read_back(const std::string& path, const SampleFileInfo& back, const SampleBuffer& samples);
+
+/// A buffer with the file's windows, metadata and slots, without samples.
+SampleBuffer empty_buffer(const SampleFileInfo& info);
+
+}  // namespace rpf::io
