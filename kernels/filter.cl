@@ -44,8 +44,8 @@ static void weigh(const Frame* frame, const rpf_pass* pass, uint neighbors, cons
                   Weights* out) {
   float information[RPF_PAIRS];
   measure_dependencies(frame, pass, neighbors, slot, trace, information);
-  rpf_weigh_dependencies(information, RPF_RANDOM, RPF_FEATURES, pass->alpha_factor, pass->growth, &out->color,
-                         out->feature_fraction_random, out->fraction_feature, out->beta);
+  const rpf_feature_weights feature = {out->feature_fraction_random, out->fraction_feature, out->beta};
+  rpf_weigh_dependencies(information, RPF_RANDOM, RPF_FEATURES, pass->alpha_factor, pass->growth, &out->color, feature);
   if (!trace->values) return;
   trace_floats(trace, trace->at.information, information, RPF_PAIRS);
   trace_floats(trace, trace->at.color_weights, out->color.color_fraction_random, 3);

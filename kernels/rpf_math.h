@@ -67,12 +67,19 @@ RPF_INLINE float rpf_beta(float fraction_feature, float growth, float feature_fr
   return fraction_feature * rpf_not_negative(1.0f - growth * feature_fraction_random);
 }
 
-// What section 5 ends with for the color. The same for the features stands in arrays, one value a feature.
+// What section 5 ends with for the color.
 typedef struct {
   float color_fraction_random[3];  // W_c,i^r
   float fraction_random;           // W_c^r
   float alpha[3];
 } rpf_color_weights;
+
+// And for the features: one value each.
+typedef struct {
+  float* fraction_random;   // W_f,k^r
+  float* fraction_feature;  // W_c^{f,k}
+  float* beta;
+} rpf_feature_weights;
 
 // The sum of `count` values, one after the other.
 RPF_INLINE float rpf_sum(const float* values, uint count) {
@@ -86,18 +93,16 @@ RPF_INLINE float rpf_mean(const float* values, uint count) {
 }
 
 // Section 5, second half: mutual information to W, alpha and beta. `information`: every color with 2 position
-// coordinates, the random parameters and the features, then every feature with position and random parameters. The last
-// three arrays are results, one value a feature.
+// coordinates, the random parameters and the features, then every feature with position and random parameters.
 RPF_INLINE void rpf_weigh_dependencies(const float* information, uint random, uint features, float alpha_factor,
-                                       float growth, rpf_color_weights* color, float* feature_fraction_random,
-                                       float* fraction_feature, float* beta) {
+                                       float growth, rpf_color_weights* color, rpf_feature_weights feature) {
   float on_position = 0.0f, on_random = 0.0f, on_features = 0.0f;
-  for (uint k = 0; k < features; ++k) fraction_feature[k] = 0.0f;  // D_c^{f,k} until W_c^{f,k} takes its place
+  for (uint k = 0; k < features; ++k) feature.fraction_feature[k] = 0.0f;  // D_c^{f,k} until W_c^{f,k} takes its place
   for (int i = 0; i < 3; ++i) {
     const float color_on_position = rpf_sum(information, 2);
     const float color_on_random = rpf_sum(information + 2, random);
     information += 2 + random;
-    for (uint k = 0; k < features; ++k) fraction_feature[k] += information[k];
+    for (uint k = 0; k < features; ++k) feature.fraction_feature[k] += information[k];
     on_features += rpf_sum(information, features);
     information += features;
     on_position += color_on_position;
@@ -107,9 +112,10 @@ RPF_INLINE void rpf_weigh_dependencies(const float* information, uint random, ui
   }
   color->fraction_random = rpf_sum(color->color_fraction_random, 3) / 3.0f;
   for (uint k = 0; k < features; ++k) {
-    feature_fraction_random[k] = rpf_fraction_random(rpf_sum(information + 2, random), rpf_sum(information, 2));
-    fraction_feature[k] = rpf_fraction_feature(fraction_feature[k], on_random, on_position, on_features);
-    beta[k] = rpf_beta(fraction_feature[k], growth, feature_fraction_random[k]);
+    feature.fraction_random[k] = rpf_fraction_random(rpf_sum(information + 2, random), rpf_sum(information, 2));
+    feature.fraction_feature[k] =
+        rpf_fraction_feature(feature.fraction_feature[k], on_random, on_position, on_features);
+    feature.beta[k] = rpf_beta(feature.fraction_feature[k], growth, feature.fraction_random[k]);
     information += 2 + random;
   }
 }

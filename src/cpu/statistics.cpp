@@ -136,7 +136,7 @@ void compute_weights(const Plan& plan, int pass, const Dependencies& dependencie
   kernel::rpf_weigh_dependencies(dependencies.information.data(), static_cast<kernel::uint>(random),
                                  static_cast<kernel::uint>(features), plan.alpha_factor,
                                  plan.passes[static_cast<std::size_t>(pass)].growth, &out.color,
-                                 out.feature_fraction_random.data(), out.fraction_feature.data(), out.beta.data());
+                                 {out.feature_fraction_random.data(), out.fraction_feature.data(), out.beta.data()});
 }
 
 }  // namespace rpf

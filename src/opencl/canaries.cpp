@@ -17,7 +17,7 @@ constexpr std::uint8_t canary = 0xA5;
 
 cl::Buffer Canaries::allocate(const cl::Context& context, cl::CommandQueue& queue, cl_mem_flags flags,
                               std::size_t bytes) {
-  if (!has_canaries) return cl::Buffer(context, flags, bytes);
+  if (!has_canaries) return {context, flags, bytes};
   // All of the buffer: what a kernel reads before anything wrote it is not 0 by chance.
   const std::vector<std::uint8_t> canaries(bytes + canary_bytes, canary);
   cl::Buffer buffer(context, flags, canaries.size());
@@ -27,14 +27,16 @@ cl::Buffer Canaries::allocate(const cl::Context& context, cl::CommandQueue& queu
 }
 
 void Canaries::check(cl::CommandQueue& queue) {
-  const auto is_ours_alone = [](const Guarded& g) { return g.buffer.getInfo<CL_MEM_REFERENCE_COUNT>() == 1; };
+  const auto is_ours_alone = [](const auto& guarded) {
+    return guarded.first.template getInfo<CL_MEM_REFERENCE_COUNT>() == 1;
+  };
   guarded_.erase(std::remove_if(guarded_.begin(), guarded_.end(), is_ours_alone), guarded_.end());
-  for (const Guarded& g : guarded_) {
+  for (const auto& [buffer, bytes] : guarded_) {
     std::vector<std::uint8_t> found(canary_bytes);
-    queue.enqueueReadBuffer(g.buffer, CL_TRUE, g.bytes, canary_bytes, found.data());
+    queue.enqueueReadBuffer(buffer, CL_TRUE, bytes, canary_bytes, found.data());
     if (std::any_of(found.begin(), found.end(), [](std::uint8_t byte) { return byte != canary; }))
       throw Error(ErrorKind::internal,
-                  fmt::format("a kernel wrote behind a buffer of {} bytes; please report it", g.bytes));
+                  fmt::format("a kernel wrote behind a buffer of {} bytes; please report it", bytes));
   }
 }
 

@@ -1,6 +1,7 @@
 // Bytes behind every device buffer that no kernel may touch. Debug builds only.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "opencl/opencl.h"
@@ -22,11 +23,7 @@ class Canaries {
   void check(cl::CommandQueue& queue);
 
  private:
-  struct Guarded {
-    cl::Buffer buffer;
-    std::size_t bytes = 0;
-  };
-  std::vector<Guarded> guarded_;
+  std::vector<std::pair<cl::Buffer, std::size_t>> guarded_;  ///< with the bytes before the canary
 };
 
 }  // namespace rpf

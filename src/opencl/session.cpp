@@ -148,7 +148,7 @@ cl::Buffer Session::copy_of(const void* data, std::size_t bytes) {
 
 cl::Buffer Session::host_buffer(const void* data, std::size_t bytes, cl_mem_flags access) {
   if (has_canaries || bytes == 0) return copy_of(data, bytes);
-  return cl::Buffer(context_, access | CL_MEM_USE_HOST_PTR, bytes, const_cast<void*>(data));
+  return {context_, access | CL_MEM_USE_HOST_PTR, bytes, const_cast<void*>(data)};
 }
 
 void Session::read_back(const cl::Buffer& buffer, std::size_t offset, std::size_t bytes, void* data) {

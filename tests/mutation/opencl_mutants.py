@@ -29,8 +29,8 @@ MUTANTS = [
            "conformance redraws/1 neighbors", "draws: an attempt less"),
     Mutant("cl_border", NEIGHBORHOOD, "to_x < 0 | to_x >= pass->width", "to_x < 0 | to_x > pass->width",
            DOF + "neighbors", "draws: a column behind the image"),
-    Mutant("cl_rejection", NEIGHBORHOOD, "const int2 c = b.lo | b.hi;\n  return (c.x | c.y) != 0;", "const int2 c = b.lo | b.hi;\n  return c.x != 0;",
-           DOF + "neighbors", "rejection: every other feature"),
+    Mutant("cl_rejection", NEIGHBORHOOD, "return !any_lane(rejected);", "return !rejected.s0;",
+           DOF + "neighbors", "rejection: by the first feature alone"),
 
     # ---------------------------------------------------------------- 4. normalization
     Mutant("cl_mean", STATISTICS, "moments.x = lanes_total(sum) / (float)count;", "moments.x = lanes_total(sum) / (float)(count + 1);",
@@ -50,7 +50,7 @@ MUTANTS = [
     Mutant("cl_group", STATISTICS, "planes + bin * words + group * RPF_LANES", "planes + bin * words",
            "conformance max-samples/1025 any", "bit planes: the last 512 neighbors only"),
     Mutant("cl_mask", STATISTICS, "uint16 plane = is_neighbor;", "uint16 plane = 0xFFFFFFFFu;",
-           "conformance max-samples/17 histograms", "bit planes: what is no neighbor counts"),
+           "conformance max-samples/17 bins", "bit planes: what is no neighbor counts"),
     Mutant("cl_margin", STATISTICS, "left[last_y] -= rest;", "", DOF + "histograms", "histograms: the last column"),
     Mutant("cl_information", STATISTICS, "joint - margin[x] - margin[y] + all", "joint - margin[x] - margin[y] - all",
            DOF + "information", "sign of N ln N"),
