@@ -15,6 +15,15 @@
 #define RPF_HALF_BINS ((RPF_BINS - 1) / 2)
 #define RPF_NO_SAMPLE 0xFFFFFFFFu
 
+// PoCL compiles for the newest processor that its LLVM knows. Where the host has an instruction that counts bits in vectors
+// and says so (RPF_VECTOR_POPCOUNT), the function that does the work is compiled for it.
+#ifdef RPF_VECTOR_POPCOUNT
+#define RPF_CPU_FEATURES \
+  __attribute__((noinline, target("avx512vpopcntdq,avx512f,avx512bw,avx512cd,avx512dq,avx512vl,popcnt")))
+#else
+#define RPF_CPU_FEATURES
+#endif
+
 #define RPF_LANE_NUMBERS ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 
 // The band of the frame that is on the device, and the tables of plan and pass. Pixels and samples keep the numbers that

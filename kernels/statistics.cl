@@ -103,7 +103,7 @@ static void fill_planes(__global const float16* column, uint neighbors, uint wor
     for (uint k = 0; k < end; ++k) {
       const uint16 bin = as_uint16(rpf_bin(column[group * 32 + k], RPF_HALF_BINS));
 #pragma unroll
-      for (int i = 0; i < RPF_BIN_BITS; ++i) number[i] |= (bin >> i & 1u) << k;
+      for (int i = 0; i < RPF_BIN_BITS; ++i) number[i] = (bin & 1u << i) != 0 ? number[i] | 1u << k : number[i];
     }
     // Full blocks have all bits; in the last block only the lanes of neighbors count.
     const uint full = min(neighbors / RPF_LANES - group * 32, 32u);

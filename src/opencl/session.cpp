@@ -36,10 +36,24 @@ int index_of(const std::string& text, std::size_t count) {
   return static_cast<std::size_t>(index) < count ? index : -1;
 }
 
+/// Whether this is PoCL on a processor that counts bits in vectors; frame.cl says what for.
+bool has_vector_popcount(const cl::Device& device) {
+#ifdef __x86_64__
+  const std::string version = device.getInfo<CL_DEVICE_VERSION>();
+  return version.find("PoCL") != std::string::npos && (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0 &&
+         __builtin_cpu_supports("avx512vpopcntdq") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512vl");
+#else
+  static_cast<void>(device);
+  return false;
+#endif
+}
+
 /// No option that trades accuracy; division and square root correctly rounded where that must be asked for.
 std::string build_options(const cl::Device& device, const std::string& definitions) {
   const bool asks = (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
-  return "-cl-std=CL1.2 " + std::string(asks ? "-cl-fp32-correctly-rounded-divide-sqrt " : "") + definitions;
+  return "-cl-std=CL1.2 " + std::string(asks ? "-cl-fp32-correctly-rounded-divide-sqrt " : "") +
+         (has_vector_popcount(device) ? "-DRPF_VECTOR_POPCOUNT " : "") + definitions;
 }
 
 }  // namespace
