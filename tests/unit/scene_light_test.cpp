@@ -119,6 +119,43 @@ TEST(Furnace, WhiteMetalLosesLittleAndGainsNothing) {
   EXPECT_GT(sum / count, 0.91);  // the whole sphere reflects 0.916, its rim least
 }
 
+/// A closed room whose walls shine with radiance 1 and reflect the part 0.5 of what they receive.
+World bright_room() {
+  World world;
+  world.camera = look({0.1F, 0.2F, 0.3F}, {0, 0, -1}, 1);
+  Material wall = plain({0.5F, 0.5F, 0.5F});
+  wall.emission = {1, 1, 1};
+  const std::uint32_t material = world.add(wall);
+  const Vec3 x = {2, 0, 0}, y = {0, 2, 0}, z = {0, 0, 2}, low = {-1, -1, -1}, high = {1, 1, 1};
+  for (const auto& [u, v] : {std::pair{x, y}, {y, z}, {z, x}}) {  // normals point inwards
+    world.add(Rectangle{low, u, v}, material);
+    world.add(Rectangle{high, -v, -u}, material);
+  }
+  return world;
+}
+
+TEST(Furnace, ClosedRoomAddsUpEveryScattering) {
+  World world = bright_room();
+  for (const int scatterings : {0, 1, 2, 5}) {
+    world.scatterings = scatterings;
+    const Tracer tracer(world);
+    int exact = 0;
+    for (std::uint32_t i = 0; i < 1000; ++i)
+      if (std::fabs(look_at(world, tracer, i).radiance.x - (2 - std::pow(0.5, scatterings))) < 1e-5) ++exact;
+    EXPECT_GE(exact, 997);  // a ray that starts within 0.0002 of an edge may leave the room
+  }
+}
+
+TEST(Lights, AreBlackFromBehind) {
+  World world;
+  world.camera = look({0, 3, 0.01F}, {0, 0, 0}, 0.1F);
+  add_ceiling_light(world, {0, 1, 0}, 2, {1, 1, 1});
+  const Tracer from_behind(world);
+  EXPECT_EQ(look_at(world, from_behind, 0).radiance.x, 0);
+  world.camera.position.y = -3;
+  EXPECT_EQ(look_at(world, from_behind, 0).radiance.x, 1);
+}
+
 struct Estimate {
   double mean = 0, error = 0;  ///< error: standard error
 };

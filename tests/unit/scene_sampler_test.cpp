@@ -95,6 +95,13 @@ TEST_P(EverySampler, HasNoOrderInsideAPixel) {
   for (const double sum : {number_film, film_lens, lens_time, film_bsdf}) EXPECT_LT(std::fabs(sum), limit);
 }
 
+TEST_P(EverySampler, GivesEverySampleItsOwnFurtherNumbers) {
+  std::set<std::uint32_t> keys;
+  for (std::uint32_t pixel = 0; pixel < 100; ++pixel)
+    for (std::uint32_t i = 0; i < 16; ++i) keys.insert(PixelSampler(GetParam(), pixel, 16).draw(i).further);
+  EXPECT_EQ(keys.size(), 1600U);
+}
+
 INSTANTIATE_TEST_SUITE_P(Samplers, EverySampler,
                          testing::Values(SceneSampler::random, SceneSampler::stratified, SceneSampler::sobol));
 
