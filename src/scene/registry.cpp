@@ -37,6 +37,7 @@ const Entry& find_scene(const std::string& name) {
   const auto found = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return name == e.name; });
   if (found != entries.end()) return *found;
   std::vector<std::string> names;
+  names.reserve(entries.size());
   for (const Entry& entry : entries) names.emplace_back(entry.name);
   throw Error(ErrorKind::usage, fmt::format("scene '{}': no such scene; there are {}", name, fmt::join(names, ", ")));
 }
