@@ -107,7 +107,7 @@ def picture(scene):
     folder = WORK / scene
     run("compare", folder / "4.mean.exr", folder / "thesis.exr", folder / "reference.exr", "--side-by-side", folder / "picture.png")
     PICTURES.mkdir(parents=True, exist_ok=True)
-    Image.open(folder / "picture.png").convert("RGB").save(PICTURES / f"{scene}.jpg", quality=72, optimize=True)
+    Image.open(folder / "picture.png").convert("RGB").save(PICTURES / f"{scene}.jpg", quality=58, optimize=True)
 
 
 def slope(errors):
@@ -132,7 +132,7 @@ def plot(book, scenes):
 
 
 def scene_table(book, purposes):
-    rows = [f"| scene: 4 samples a pixel, `thesis`, reference | for | relMSE at 4 | at 8 | seconds |", "|---|---|---|---|---|"]
+    rows = ["| scene: 4 samples a pixel, `thesis`, reference | for | relMSE at 4 | at 8 | seconds |", "|---|---|---|---|---|"]
     for scene, purpose in purposes.items():
         page = book.pages[scene]
         rows.append(f"| `{scene}`<br>![{scene}](images/scenes/{scene}.jpg) | {purpose} | {page['mean 4']['relMSE']:.3g} | "

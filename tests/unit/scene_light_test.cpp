@@ -234,6 +234,8 @@ TEST(Solids, AreSeenWhereTheyAreAtTheTimeOfTheRay) {
   Solid ball = sphere({-2, 0, -5}, 1, world.add(plain({1, 1, 1})));
   ball.velocity = {4, 0, 0};
   world.add(ball);
+  for (int i = 0; i < 8; ++i)  // a hierarchy needs company: around a single solid it asks nobody for bounds
+    world.add(sphere({-20.0F + 5 * static_cast<float>(i), 20, -30}, 1, 0));
   const Tracer tracer(world);
   for (const float time : {0.0F, 0.25F, 0.5F, 0.99F}) {
     const auto hit = tracer.nearest({{-2 + 4 * time, 0, 0}, {0, 0, -1}, time});
