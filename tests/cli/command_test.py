@@ -155,6 +155,10 @@ class CommandTest(unittest.TestCase):
                 self.assertEqual(files[0], files[1])
                 self.assertEqual(files[1], files[2])
 
+    def test_scene_says_nothing_when_quiet_also_with_more_threads_than_cores(self):
+        result = run("scene", "dof", "-o", self.output, "--size", "16x9", "-q", "-t", 64)
+        self.assertEqual(result.stdout + result.stderr, "")
+
     def test_scene_mean_tends_to_its_reference(self):
         samples, reference = self.folder / "samples.exr", self.folder / "reference.exr"
         self.expect(run("scene", "dof", "-o", reference, "--size", "48x27", "--reference", "512"), 0, "residual relMSE")
