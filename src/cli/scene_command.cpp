@@ -78,7 +78,20 @@ void write_reference_image(const Options& o, const SceneOptions& scene) {
              scene.samples, std::get<float>(image.metadata.at("rpf:residualRelMSE")));
 }
 
+/// More than the machine has: refused before anything is rendered.
+void check_budget(const SceneOptions& scene) {
+  constexpr double slots = 33, megabyte = 1 << 20;
+  const double pixels = static_cast<double>(scene.width) * scene.height;
+  const double need_mb = pixels * scene.samples * slots * sizeof(float) / megabyte;
+  const double limit_mb = static_cast<double>(default_memory_limit()) / megabyte;
+  if (need_mb > limit_mb)
+    throw Error(ErrorKind::memory, fmt::format("scene: the samples take {:.0f} MB of memory, the limit is {:.0f} MB; "
+                                               "choose a smaller --spp or --size",
+                                               need_mb, limit_mb));
+}
+
 void write_sample_file(const Options& o, const SceneOptions& scene) {
+  check_budget(scene);
   const SampleBuffer samples = with_progress(o, [&](const Control& c) { return render_scene(o.name, scene, c); });
   const SignalGuard guard;
   write_samples(o.output, samples);

@@ -15,7 +15,8 @@ const std::vector<Entry>& registry() {
       {"dof", "spheres and cards at several depths over a checkered floor, defocused in front and behind", dof},
       {"dof-edge", "two half-planes at two depths: the blurred edge has a closed form", dof_edge},
       {"dof-thin", "hundreds of thin blades, defocused: hardly a pixel sees a single surface", dof_thin},
-      {"dof-hdr", "small bright lights out of focus: bokeh, and samples a hundred times brighter than the rest",
+      {"dof-hdr",
+       "small bright lights out of focus: bokeh, and samples a hundred times brighter than their surroundings",
        dof_hdr},
       {"motion", "moving and rotating spheres and boxes over the shutter interval", motion},
       {"soft-shadow", "a large area light: wide penumbras on plain and checkered surfaces", soft_shadow},
@@ -36,6 +37,7 @@ const Entry& find_scene(const std::string& name) {
   const auto found = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return name == e.name; });
   if (found != entries.end()) return *found;
   std::vector<std::string> names;
+  names.reserve(entries.size());
   for (const Entry& entry : entries) names.emplace_back(entry.name);
   throw Error(ErrorKind::usage, fmt::format("scene '{}': no such scene; there are {}", name, fmt::join(names, ", ")));
 }

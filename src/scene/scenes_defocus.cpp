@@ -72,10 +72,10 @@ World dof_hdr() {
   world.add(sphere({0.9F, 0.4F, 0}, 0.4F, world.add(metal({0.8F, 0.8F, 0.85F}, 0.15F))));
   Stream random(11);
   for (int light = 0; light < 30; ++light) {
-    const float z = light < 4 ? 2.2F : -2 - 8 * random.next(), reach = (5 - z) * 0.45F, size = 0.004F * (5 - z);
+    const float z = light < 4 ? 2.2F : -2 - 8 * random.next(), reach = (5 - z) * 0.45F, size = 0.008F * (5 - z);
     const Vec3 corner = {reach * (2 * random.next() - 1), 0.4F + 0.25F * (5 - z) * random.next(), z};
     const Vec3 tint = {1, 0.3F + 0.7F * random.next(), 0.2F + 0.8F * random.next()};
-    world.add(AreaLight{{corner, {size, 0, 0}, {0, size, 0}}, (60 + 100 * random.next()) * tint});
+    world.add(AreaLight{{corner, {size, 0, 0}, {0, size, 0}}, (25 + 40 * random.next()) * tint});
   }
   return world;
 }

@@ -1,5 +1,6 @@
 #include "scene/workforce.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -40,6 +41,8 @@ void for_all_pixels(const Work& work, const Control& control, const std::functio
   const auto piece =
       std::max<std::size_t>(control.tile_pixels > 0 ? control.tile_pixels : static_cast<std::size_t>(pixels_a_piece),
                             static_cast<std::size_t>(threads));
+  // Lets oneTBB have more threads than cores where the caller asks for them.
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
   Meter meter(control);
   for (std::size_t begin = 0; begin < work.pixels; begin += piece) {

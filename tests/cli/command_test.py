@@ -129,6 +129,72 @@ class CommandTest(unittest.TestCase):
         self.expect(run(EXAMPLE, "--dry-run", "-t", "2", env={"RPF_NUM_THREADS": "3"}), 0, "2 threads")
         self.expect(run(EXAMPLE, "--dry-run", env={"RPF_BACKEND": "abacus"}), 2, "abacus")
 
+    # ---- scenes
+
+    def test_scene_writes_samples_that_info_and_oiiotool_read(self):
+        listed = run("scene", "--list").stdout.splitlines()
+        names = [line.split()[0] for line in listed]
+        self.assertEqual(len(names), 14)
+        for name in names:
+            with self.subTest(scene=name):
+                self.expect(run("scene", name, "-o", self.output, "--size", "32x18", "--spp", "2"), 0, "1152 samples")
+                self.expect(run("info", self.output), 0, "2 to 2 a pixel", "random.lens.U", "feature.P2.X", "feature.hit")
+                self.expect(run(self.output, "-o", self.folder / "filtered.exr", "--boxes", "3", "-q"), 0)
+                if shutil.which("oiiotool"):
+                    seen = subprocess.run(["oiiotool", "--info", "-v", self.output], capture_output=True, text=True)
+                    self.assertEqual(seen.returncode, 0, seen.stderr)
+                    for text in ("32 x   18", "33 channel, deep", f'rpf:scene: "{name}"', "random.time"):
+                        self.assertIn(text, seen.stdout)
+
+    def test_scene_writes_the_same_bytes_twice_and_with_any_threads(self):
+        for options in ([], ["--adaptive"], ["--sampler", "sobol"], ["--sampler", "stratified"], ["--reference", "8"]):
+            with self.subTest(options=options):
+                files = []
+                for threads in (1, 2, 2):
+                    self.expect(run("scene", "combined", "-o", self.output, "--size", "64x36", "-t", threads, "-q", *options), 0)
+                    files.append(self.output.read_bytes())
+                self.assertEqual(files[0], files[1])
+                self.assertEqual(files[1], files[2])
+
+    def test_scene_says_nothing_when_quiet_also_with_more_threads_than_cores(self):
+        result = run("scene", "dof", "-o", self.output, "--size", "16x9", "-q", "-t", 64)
+        self.assertEqual(result.stdout + result.stderr, "")
+
+    def test_scene_mean_tends_to_its_reference(self):
+        samples, reference = self.folder / "samples.exr", self.folder / "reference.exr"
+        self.expect(run("scene", "dof", "-o", reference, "--size", "48x27", "--reference", "512"), 0, "residual relMSE")
+        errors = []
+        for spp in (4, 64):
+            self.expect(run("scene", "dof", "-o", samples, "--size", "48x27", "--spp", spp), 0)
+            self.expect(run(samples, "-o", self.output, "--boxes", "none", "-q"), 0)
+            errors.append(error_of(run("compare", self.output, reference))[0])
+        self.assertAlmostEqual(errors[1] / errors[0], 4 / 64, delta=0.03)
+
+    def test_scene_counts_follow_a_rule_or_an_image(self):
+        self.expect(run("scene", "dof", "-o", self.output, "--size", "64x36", "--adaptive"), 0)
+        self.expect(run("info", self.output), 0, "0 to 8 a pixel")
+        density = self.folder / "density.exr"
+        self.expect(run("scene", "constant", "-o", density, "--size", "64x36", "--reference", "2"), 0)  # R is 0.25
+        self.expect(run("scene", "dof", "-o", self.output, "--size", "64x36", "--spp", "8", "--density", density), 0)
+        self.expect(run("info", self.output), 0, "2 to 2 a pixel")
+
+    def test_scene_world_scale_and_offset(self):
+        self.expect(run("scene", "constant", "-o", self.output, "--size", "8x8", "--world-scale", "10", "--world-offset", "-5,7,1000"), 0)
+        positions = [line.split() for line in run("info", self.output).stdout.splitlines() if "feature.P.Z" in line]
+        self.assertEqual(positions[0][3:5], ["980", "980"])  # 10 * -2 + 1000
+
+    def test_scene_errors(self):
+        name = ["scene", "dof", "-o", self.output]
+        for arguments, code, text in ((["scene", "door", "-o", self.output], 2, "dof-edge"), (["scene"], 2, "--list"), (["scene", "dof"], 2, "no output"),
+                                      ([*name, "--size", "8"], 2, "--size 8"), ([*name, "--spp", "0"], 2, "samples a pixel is 0"),
+                                      ([*name, "--sampler", "dice"], 2, "dice"), ([*name, "--world-offset", "1,2"], 2, "world-offset"),
+                                      ([*name, "--reference", "1"], 2, "reference"), ([*name, "--adaptive", "--reference", "8"], 2, "excludes"),
+                                      ([*name, "--density", EXAMPLE.parent / "none.exr"], 3, "none.exr"), ([*name, "--density", REFERENCE], 2, "density"),
+                                      ([*name, "--spp", "1000000"], 6, "memory"), (["scene", "dof", "-o", self.folder / "a" / "b.exr"], 4, "b.exr")):
+            with self.subTest(text=text):
+                self.expect(run(*arguments), code, text)
+                self.expect_nothing_written()
+
     # ---- what cannot be
 
     def test_usage_errors(self):
@@ -181,6 +247,16 @@ class CommandTest(unittest.TestCase):
             self.assertLess(time.monotonic() - start, 2.0)
             self.assertIn(process.returncode, (128 + number, -number))
             self.expect_nothing_written()
+
+    def test_a_signal_stops_a_reference(self):
+        process = subprocess.Popen([RPF, "scene", "dof", "-o", self.output, "--reference", "100000"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        time.sleep(0.5)
+        start = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+        self.assertLess(time.monotonic() - start, 2.0)
+        self.assertEqual(process.returncode, 130)
+        self.expect_nothing_written()
 
     def test_closed_standard_output_is_no_reason_to_lose_the_image(self):
         subprocess.run(f"'{RPF}' '{EXAMPLE}' -o '{self.output}' {' '.join(QUICK)} >&- 2>&-", shell=True, check=False)

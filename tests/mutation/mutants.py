@@ -12,6 +12,7 @@ WEIGHTING, BACKEND = "src/cpu/weighting.cpp", "src/cpu/cpu_backend.cpp"
 PLAN, TABLES, CLEAN = "src/plan.cpp", "src/tables.cpp", "src/clean.cpp"
 PREPARE, DRIVER, RESOLVE = "src/prepare.cpp", "src/driver.cpp", "src/resolve.cpp"
 MERGE, RAW_READER, HDR_FLIP = "src/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
+SCENE = "src/scene/"
 BOTH = "Profiles/BothProfiles."
 
 
@@ -195,6 +196,58 @@ MUTANTS = [
            "Outlier.IsMoreThanOneStandardDeviationOff", "outliers: only bright ones"),
     Mutant("energy_lost", WEIGHTING, "filtered[i * carried + c] += taken;", "filtered[i * carried + c] += 0 * taken;",
            "OutlierStep.KeepsTheEnergy", "outliers: energy not given back"),
+
+    # ---------------------------------------------------------------- scenes
+    Mutant("permutation_leaves", SCENE + "sampler.cpp", "} while (i >= count);", "} while (false);",
+           "Sampler.PermutesAnyCount", "sampler: no permutation"),
+    Mutant("strata_of_axes", SCENE + "sampler.cpp", "(static_cast<float>(fine) + jitter)", "jitter",
+           "Sampler.StratifiedFillsItsGridAndBothAxes", "sampler: axes not stratified"),
+    Mutant("sobol_matrix", SCENE + "sampler.cpp", "column ^= column >> 1U", "column >>= 1U",
+           "Sampler.SobolFillsEveryElementaryInterval", "sampler: second dimension is the first"),
+    Mutant("order_in_pixel", SCENE + "sampler.cpp", "permute(sample, count_, hash(key, 0x5bd1e995U))", "sample",
+           "Samplers/EverySampler.HasNoOrderInsideAPixel/*", "sampler: not shuffled"),
+    Mutant("dimensions_alike", SCENE + "sampler.cpp", "hash(key_, dimension)", "key_",
+           "Samplers/EverySampler.HasNoOrderInsideAPixel/*", "sampler: all dimensions the same"),
+    Mutant("further_alike", SCENE + "sampler.cpp", "hash(hash(key_, further), sample)", "hash(key_, further)",
+           "Samplers/EverySampler.GivesEverySampleItsOwnFurtherNumbers/*", "sampler: later bounces the same in a pixel"),
+    Mutant("film_rounds_up", SCENE + "renderer.cpp", "std::nextafter(next, 0.0F)", "next",
+           "Scene.FilmPositionsDoNotRoundIntoTheNextPixel", "film: the next pixel"),
+    Mutant("stages_alike", SCENE + "renderer.cpp", "static_cast<std::uint32_t>(stage)", "0U * static_cast<std::uint32_t>(stage)",
+           "Scene.ReferenceIsDrawnApartFromTheSamplesOfTheSameSeed", "reference: the samples' numbers"),
+    Mutant("ggx_weight", SCENE + "material.cpp", "seen * fresnel", "fresnel",
+           "Reflection.SampledAndIntegratedAlbedoAgree", "GGX: shadowing left out of the weight"),
+    Mutant("ggx_density", SCENE + "material.cpp", "ggx_normals(half, material.roughness) / (4 * out.z)", "ggx_normals(half, material.roughness) / (3 * out.z)",
+           "Reflection.DensityIntegratesToTheShareOfDirectionsAbove", "GGX: Jacobian"),
+    Mutant("ggx_shape", SCENE + "ggx.cpp", "(std::sqrt(1 + alpha * alpha * tan2) - 1) / 2", "(std::sqrt(1 + alpha * tan2) - 1) / 2",
+           "Reflection.WhiteMetalReflectsWhatTheTextbookSays", "GGX: shadowing of another roughness"),
+    Mutant("light_choice", SCENE + "integrator.cpp", " * static_cast<float>(world.lights.size()));", ");",
+           "Lights.AllStrategiesHaveTheSameMean", "lights: probability of the choice forgotten"),
+    Mutant("light_cosine", SCENE + "integrator.cpp", "(cosine * shape.area()", "(shape.area()",
+           "Lights.SquareLightHasItsViewFactor", "lights: cosine at the light"),
+    Mutant("balance", SCENE + "integrator.cpp", "return mine / (mine + other);", "return 0.6F + 0 * (mine + other);",
+           "Lights.AllStrategiesHaveTheSameMean", "lights: weights that do not add up to 1"),
+    Mutant("light_back", SCENE + "integrator.cpp", "if (dot(s.hit.normal, ray.direction) >= 0) return {};", "",
+           "Lights.AreBlackFromBehind", "lights: both sides shine"),
+    Mutant("throughput", SCENE + "integrator.cpp", "throughput = throughput * next.weight;", "throughput = next.weight;",
+           "Furnace.ClosedRoomAddsUpEveryScattering", "path: only the last surface counts"),
+    Mutant("shadow_rays", SCENE + "tracer.cpp", "return query.tfar < 0;", "return query.tfar < -1e30F && distance < 0;",
+           "Solids.AreSeenWhereTheyAreAtTheTimeOfTheRay", "tracer: no shadows"),
+    Mutant("motion_bounds", SCENE + "tracer.cpp", "b = solid.center + solid.velocity", "b = solid.center",
+           "Solids.AreSeenWhereTheyAreAtTheTimeOfTheRay", "tracer: moving solids are cut off"),
+    Mutant("rotation_sense", SCENE + "shapes.h", "-(angle + turn * time)", "(angle + turn)",
+           "Solids.MoveAndTurnWithTime", "solids: turned at once"),
+    Mutant("world_offset", SCENE + "record.cpp", "* value + offset", "* (value + offset)",
+           "Scene.WorldScaleAndOffsetMovePositionsAndNothingElse", "record: offset scaled"),
+    Mutant("unused_numbers", SCENE + "record.cpp", "usage.lens ? sample.draw.lens : Pair{}", "sample.draw.lens",
+           "Scenes/EveryScene.HasRandomNumbersFromZeroToOneAndZerosForUnusedOnes/*", "record: numbers of a lens that is not there"),
+    Mutant("missing_hit", SCENE + "record.cpp", "if (!point.hit)", "if (false)",
+           "Scenes/EveryScene.HasFeaturesExactlyWhereThereIsAHit/*", "record: zeros for what is missing"),
+    Mutant("adaptive_most", SCENE + "counts.cpp", "(2 * samples + 1) * random", "2 * samples * random",
+           "Scene.AdaptiveCountsGoFromZeroToTwiceTheMean", "counts: the largest never comes"),
+    Mutant("residual_error", SCENE + "render.cpp", "w * (1 - w) * difference", "0.5 * difference",
+           "Scene.ReferenceKnowsItsOwnError", "reference: error of a half"),
+    Mutant("cancel_ignored", SCENE + "workforce.cpp", "if (!control_.progress(progress))", "if (!control_.progress(progress) && false)",
+           "Scene.StopsOnRequest", "cancel: goes on"),
 
     # ---------------------------------------------------------------- result, tiles and crop
     Mutant("scale_not_undone", DRIVER, "value / prepared.radiance_scale", "value",
