@@ -23,11 +23,11 @@ static void trace_moments(const Trace* trace, const OwnMoments* moments) {
 }
 
 // Section 4 for all variables.
-static void normalize_columns(const OwnMoments* own, uint blocks, const Slot* slot, const Trace* trace) {
+static void normalize_columns(const OwnMoments* own, uint neighbors, const Slot* slot, const Trace* trace) {
   float shift[RPF_CHUNKS * RPF_LANES];
   for (int c = 0; c < RPF_CHUNKS; ++c) vstore16(own->shift[c], c, shift);
   for (uint v = 0; v < RPF_VARIABLES; ++v) {
-    const float2 moments = normalize_column(slot->columns + v * slot->blocks, blocks, shift[v]);
+    const float2 moments = normalize_column(slot->columns + v * slot->blocks, neighbors, shift[v]);
     if (!trace->values) continue;
     trace->values[trace->at.mean + v] = moments.x;
     trace->values[trace->at.inverse_deviation + v] = moments.y;
@@ -68,7 +68,7 @@ RPF_CPU_FEATURES static rpf_pixel_statistics filter_pixel(const Frame* frame, co
   const uint neighbors = gather(frame, pass, first, own, &moments, statistics.drawn, slot);
   statistics.neighbors = neighbors;
   fill_columns(frame, pass, neighbors, &moments, slot);
-  normalize_columns(&moments, (neighbors + RPF_LANES - 1) / RPF_LANES, slot, trace);
+  normalize_columns(&moments, neighbors, slot, trace);
 
   Weights weights;
   weigh(frame, pass, neighbors, slot, trace, &weights);

@@ -1,7 +1,8 @@
 // The device's view of the samples, and the scratch memory of one work-item.
 //
 // Compiled in (-D): RPF_VARIABLES, RPF_RANDOM, RPF_FEATURES, RPF_BINS, RPF_CARRIED of the plan; RPF_REJECTING, how many
-// features have to be looked at to reject a candidate; RPF_SAMPLES, the samples of every pixel, 0 where they vary.
+// features have to be looked at to reject a candidate; RPF_SAMPLES, the samples of every pixel, 0 where they vary;
+// RPF_MISSING, 1 where the frame has missing values.
 #include "pass.h"
 #include "rpf_math.h"
 #include "trace_layout.h"

@@ -60,10 +60,13 @@ static void own_moments(const Frame* frame, const rpf_pass* pass, uint first, ui
 }
 
 static int any_lane(int16 condition) {
+#if defined(__has_builtin) && __has_builtin(__builtin_reduce_or)
+  return __builtin_reduce_or(condition) != 0;  // a test of the comparison's mask
+#else
   const int8 a = condition.lo | condition.hi;
   const int4 b = a.lo | a.hi;
-  const int2 c = b.lo | b.hi;
-  return (c.x | c.y) != 0;
+  return (b.x | b.y | b.z | b.w) != 0;
+#endif
 }
 
 // The attempts of a draw from `attempt` on: a sample, or RPF_NO_SAMPLE where all left the image or met an empty pixel.

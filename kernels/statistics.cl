@@ -32,26 +32,39 @@ static int count_lanes(int16 value) {
   return b.x + b.y + b.z + b.w;
 }
 
+// Sums of a column. Where the frame has no missing values (RPF_MISSING 0) only the last block can hold any: behind the last
+// neighbor.
+typedef struct {
+  float16 sum, largest;
+  int16 missing;
+} ColumnSums;
+
+static void add_values(float16 value, float shift, int may_miss, ColumnSums* sums) {
+  const float16 magnitude = fabs(value + shift);
+  sums->largest = magnitude > sums->largest ? magnitude : sums->largest;
+  sums->sum += may_miss ? rpf_or_zero(value) : value;
+  if (may_miss) sums->missing += rpf_is_missing(value) ? 1 : 0;
+}
+
+static float16 squared(float16 value, float mean, int may_miss) {
+  const float16 off = value - mean;
+  return may_miss ? rpf_or_zero(off * off) : off * off;
+}
+
 // Section 4 for one variable, in place. Returns mean (relative to the shift) and inverse deviation.
-static float2 normalize_column(__global float16* column, uint blocks, float shift) {
-  float16 sum = 0.0f, largest = 0.0f;
-  int16 present = 0;
-  for (uint b = 0; b < blocks; ++b) {
-    const float16 value = column[b], magnitude = fabs(value + shift);
-    sum += rpf_or_zero(value);
-    present += rpf_is_missing(value) ? 0 : 1;
-    largest = magnitude > largest ? magnitude : largest;
-  }
-  const int count = count_lanes(present);
+static float2 normalize_column(__global float16* column, uint neighbors, float shift) {
+  const uint full = neighbors / RPF_LANES, blocks = (neighbors + RPF_LANES - 1) / RPF_LANES;
+  ColumnSums sums = {0.0f, 0.0f, 0};
+  for (uint b = 0; b < full; ++b) add_values(column[b], shift, RPF_MISSING, &sums);
+  if (full < blocks) add_values(column[full], shift, 1, &sums);
+  const int count = (int)(blocks * RPF_LANES) - count_lanes(sums.missing);
   float2 moments = 0.0f;
   if (count > 0) {
-    moments.x = lanes_total(sum) / (float)count;
+    moments.x = lanes_total(sums.sum) / (float)count;
     float16 squares = 0.0f;
-    for (uint b = 0; b < blocks; ++b) {
-      const float16 off = column[b] - moments.x;
-      squares += rpf_or_zero(off * off);
-    }
-    moments.y = rpf_inverse_deviation(lanes_total(squares) / (float)count, largest_lane(largest));
+    for (uint b = 0; b < full; ++b) squares += squared(column[b], moments.x, RPF_MISSING);
+    if (full < blocks) squares += squared(column[full], moments.x, 1);
+    moments.y = rpf_inverse_deviation(lanes_total(squares) / (float)count, largest_lane(sums.largest));
   }
   for (uint b = 0; b < blocks; ++b) column[b] = rpf_normalize(column[b], moments.x, moments.y);
   return moments;

@@ -17,6 +17,7 @@ struct Frame {
   std::vector<std::uint32_t> first_sample;  ///< [width * height + 1]
   std::vector<float> records;  ///< [sample][variables]; the color scaled; a missing value is NaN. RPF_LANES floats
                                ///< follow, so that vectors may be read across the end of a record
+  bool has_missing = false;    ///< whether any value of the records is NaN
   std::vector<float> weights;  ///< [sample]: share in the pixel's mean; empty: all equal
 
   const float* record(std::size_t sample) const { return records.data() + sample * variables; }

@@ -194,6 +194,7 @@ PreparedFrame prepare(SampleBuffer samples, const Settings& settings) {
   result.colors = carried_values(samples, carried, result.radiance_scale);
   frame.weights = sample_weights(samples, columns);
   frame.records = repack(samples, variables, result.radiance_scale);
+  frame.has_missing = std::any_of(frame.records.begin(), frame.records.end(), [](float x) { return std::isnan(x); });
   frame.first_sample = std::move(samples.first_sample);
   result.facts.max_samples_per_pixel = most_samples(frame.first_sample);
   return result;

@@ -32,9 +32,9 @@ std::string definitions(const Frame& frame, const Plan& plan) {
   const bool uniform = std::uint64_t{most} * (frame.first_sample.size() - 1) == frame.sample_count();
   return fmt::format(
       "-DRPF_VARIABLES={} -DRPF_RANDOM={} -DRPF_FEATURES={} -DRPF_REJECTING={} -DRPF_BINS={} -DRPF_CARRIED={} "
-      "-DRPF_SAMPLES={}",
+      "-DRPF_SAMPLES={} -DRPF_MISSING={}",
       plan.variables.count(), plan.variables.random_names.size(), plan.variables.feature_names.size(), plan.rejecting,
-      2 * plan.half_bins + 1, plan.carried, uniform ? most : 0);
+      2 * plan.half_bins + 1, plan.carried, uniform ? most : 0, frame.has_missing ? 1 : 0);
 }
 
 /// One value a feature, filled up to whole vectors with what rejects nothing.

@@ -33,9 +33,9 @@ MUTANTS = [
            DOF + "neighbors", "rejection: by the first feature alone"),
 
     # ---------------------------------------------------------------- 4. normalization
-    Mutant("cl_mean", STATISTICS, "moments.x = lanes_total(sum) / (float)count;", "moments.x = lanes_total(sum) / (float)(count + 1);",
+    Mutant("cl_mean", STATISTICS, "moments.x = lanes_total(sums.sum) / (float)count;", "moments.x = lanes_total(sums.sum) / (float)(count + 1);",
            DOF + "mean", "one neighbor too many"),
-    Mutant("cl_missing", STATISTICS, "present += rpf_is_missing(value) ? 0 : 1;", "present += 1;",
+    Mutant("cl_missing", STATISTICS, "if (may_miss) sums->missing += rpf_is_missing(value) ? 1 : 0;", "",
            "conformance extreme/nan-feature mean", "missing values count"),
     Mutant("cl_flat", STATISTICS, "magnitude = fabs(value + shift);", "magnitude = fabs(value);",
            "conformance world/offset1e+07 deviation", "spread is compared with shifted values"),
