@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "every_scene.h"
 #include "rpf/metrics.h"
 #include "rpf/scene.h"
 
@@ -43,16 +44,6 @@ TEST_P(EveryScene, ConvergesLikeOneOverTheNumberOfSamples) {
   EXPECT_NEAR(std::log(many / few) / std::log(16.0), -1, 0.25);
 }
 
-std::vector<std::string> scene_names() {
-  std::vector<std::string> names;
-  for (const rpf::SceneInfo& scene : rpf::scenes()) names.push_back(scene.name);
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(scene_names()), [](const auto& scene) {
-  std::string name = scene.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(rpf::test::scene_names()), rpf::test::name_of_scene);
 
 }  // namespace

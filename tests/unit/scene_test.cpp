@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "every_scene.h"
 #include "rpf/error.h"
 #include "rpf/scene.h"
 #include "scene/renderer.h"
@@ -120,17 +121,7 @@ TEST_P(EveryScene, HasTheSameBitsForAnyNumberOfThreadsAndAnyPieces) {
   EXPECT_FALSE(same_bits(once, render_scene(GetParam(), options)));
 }
 
-std::vector<std::string> scene_names() {
-  std::vector<std::string> names;
-  for (const rpf::SceneInfo& scene : rpf::scenes()) names.push_back(scene.name);
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(scene_names()), [](const auto& scene) {
-  std::string name = scene.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(rpf::test::scene_names()), rpf::test::name_of_scene);
 
 TEST(Scene, ConstantIsExact) {
   const SampleBuffer samples = render_scene("constant", small());
