@@ -16,7 +16,6 @@ static void trace_floats(const Trace* trace, uint at, const float* values, uint 
 }
 
 static void trace_moments(const Trace* trace, const OwnMoments* moments) {
-  trace_vectors(trace, trace->at.shift, moments->shift, RPF_CHUNKS);
   trace_vectors(trace, trace->at.own_mean, moments->mean, RPF_FEATURE_CHUNKS);
   trace_vectors(trace, trace->at.own_deviation, moments->deviation, RPF_FEATURE_CHUNKS);
   trace_vectors(trace, trace->at.tolerance, moments->tolerance, RPF_FEATURE_CHUNKS);
@@ -27,8 +26,9 @@ static void normalize_columns(const OwnMoments* own, uint neighbors, const Slot*
   float shift[RPF_CHUNKS * RPF_LANES];
   for (int c = 0; c < RPF_CHUNKS; ++c) vstore16(own->shift[c], c, shift);
   for (uint v = 0; v < RPF_VARIABLES; ++v) {
-    const float2 moments = normalize_column(slot->columns + v * slot->blocks, neighbors, shift[v]);
+    const float2 moments = normalize_column(slot->columns + v * slot->blocks, neighbors, shift[place_of(v)]);
     if (!trace->values) continue;
+    trace->values[trace->at.shift + v] = shift[place_of(v)];
     trace->values[trace->at.mean + v] = moments.x;
     trace->values[trace->at.inverse_deviation + v] = moments.y;
   }
@@ -87,24 +87,29 @@ RPF_CPU_FEATURES static rpf_pixel_statistics filter_pixel(const Frame* frame, co
   return statistics;
 }
 
-// Copies what can reject a sample to where filter_tile looks for it: [sample][RPF_REJECTING_CHUNKS], the band's samples.
-__kernel void collect_features(__global const float* records, __global float16* features, uint samples) {
+// Lays the records of a band out as filter_tile reads them: [RPF_CHUNKS][sample], in the order of place_of().
+__kernel void lay_out_records(__global const float* records, __global float16* chunks, uint samples) {
   for (uint s = (uint)get_global_id(0); s < samples; s += (uint)get_global_size(0))
-    for (int c = 0; c < RPF_REJECTING_CHUNKS; ++c)
-      features[(size_t)s * RPF_REJECTING_CHUNKS + c] =
-          vload16(0, records + (size_t)s * RPF_VARIABLES + RPF_FIRST_FEATURE + RPF_LANES * c);
+    for (uint c = 0; c < RPF_CHUNKS; ++c) {
+      float values[RPF_LANES];
+      for (uint l = 0; l < RPF_LANES; ++l) {
+        const uint place = RPF_LANES * c + l;
+        values[l] = place < RPF_VARIABLES ? records[(size_t)s * RPF_VARIABLES + variable_at(place)] : 0.0f;
+      }
+      chunks[(size_t)c * samples + s] = vload16(0, values);
+    }
 }
 
 // Filters the pixels of a tile. `next_colors` [sample][RPF_CARRIED] and `statistics` [pixel] cover the band. Where
 // `trace_values` is not null the tile is one pixel.
-__kernel void filter_tile(__global const uint* first_sample, __global const float* records,
-                          __global const float16* features, __global const float* colors, __global const char* offsets, __global const uint* draws,
+__kernel void filter_tile(__global const uint* first_sample, __global const float16* chunks,
+                          __global const float* colors, __global const char* offsets, __global const uint* draws,
                           __global const int* entropy, __global const float* rejection_factor,
                           __global const float* minimum_tolerance, __global uint* candidates, __global uint* neighbors,
                           __global float16* columns, __global uint* planes, __global float16* neighbor_colors,
                           __global float* next_colors, __global rpf_pixel_statistics* statistics,
                           __global float* trace_values, __global uint* trace_histograms, const rpf_pass pass) {
-  const Frame frame = {first_sample, records, features, colors, offsets, draws, entropy, rejection_factor, minimum_tolerance};
+  const Frame frame = {first_sample, chunks, colors, offsets, draws, entropy, rejection_factor, minimum_tolerance};
   Trace trace;
   trace.values = trace_values;
   trace.histograms = trace_histograms;

@@ -31,8 +31,7 @@
 // they have in the whole frame.
 typedef struct {
   __global const uint* first_sample;        // [pixel + 1]
-  __global const float* records;            // [sample][RPF_VARIABLES], and RPF_LANES floats more
-  __global const float16* features;         // [sample][RPF_REJECTING_CHUNKS] what can reject it, one cache line a vector
+  __global const float16* chunks;           // [RPF_CHUNKS][sample] records, in the order of place_of()
   __global const float* colors;             // [sample][RPF_CARRIED] c'
   __global const char* offsets;             // [65536] of the draws
   __global const uint* draws;               // [samples of a pixel] candidates to draw
@@ -40,6 +39,16 @@ typedef struct {
   __global const float* rejection_factor;   // [RPF_FEATURE_CHUNKS * RPF_LANES] H
   __global const float* minimum_tolerance;  // [RPF_FEATURE_CHUNKS * RPF_LANES] a; infinity: takes no part
 } Frame;
+
+// On the device a record begins with its features, those that can reject it first: to test a candidate is to read one
+// cache line in most cases.
+static uint place_of(uint variable) {
+  return variable < RPF_FIRST_FEATURE ? variable + RPF_FEATURES : variable - RPF_FIRST_FEATURE;
+}
+
+static uint variable_at(uint place) {
+  return place < RPF_FEATURES ? place + RPF_FIRST_FEATURE : place - RPF_FEATURES;
+}
 
 // Scratch of a work-item for up to `capacity` neighbors, `blocks` of RPF_LANES.
 typedef struct {

@@ -1,10 +1,9 @@
 // Section 3: which samples a pixel is filtered with. A vector holds RPF_LANES variables of one record here.
 
-// What the pixel's own samples say. Moments and tolerances are of the features, relative to the shift. One vector more
-// than there are features, for none is no size of an array.
+// What the pixel's own samples say, in the order of place_of(). Moments and tolerances are of the features, relative to the
+// shift. One vector more than there are features, for none is no size of an array.
 typedef struct {
   float16 shift[RPF_CHUNKS];
-  float16 feature_shift[RPF_FEATURE_CHUNKS + 1];
   float16 mean[RPF_FEATURE_CHUNKS + 1], deviation[RPF_FEATURE_CHUNKS + 1], tolerance[RPF_FEATURE_CHUNKS + 1];
 } OwnMoments;
 
@@ -18,23 +17,19 @@ static uint samples_of(const Frame* frame, const rpf_pass* pass, uint pixel) {
   return frame->first_sample[p + 1] - frame->first_sample[p];
 }
 
-// RPF_LANES variables of a record from `variable` on; behind the last one follow values that mean nothing.
-static float16 load_record(const Frame* frame, const rpf_pass* pass, uint sample, int variable) {
-  return vload16(0, frame->records + (size_t)(sample - pass->first_sample) * RPF_VARIABLES + variable);
-}
-
-static float16 load_features(const Frame* frame, const rpf_pass* pass, uint sample, int chunk) {
-  return load_record(frame, pass, sample, RPF_FIRST_FEATURE + RPF_LANES * chunk);
+// RPF_LANES variables of a record; places behind the last one are 0.
+static float16 load_chunk(const Frame* frame, const rpf_pass* pass, uint sample, int chunk) {
+  return frame->chunks[(size_t)chunk * pass->samples + (sample - pass->first_sample)];
 }
 
 static void feature_moments(const Frame* frame, const rpf_pass* pass, uint first, uint own, int chunk,
                             OwnMoments* out) {
-  const float16 shift = rpf_or_zero(load_features(frame, pass, first, chunk));
+  const float16 shift = out->shift[chunk];
   rpf_lanes16 sum;
   rpf_lanes_clear(&sum);
   int16 count = 0;
   for (uint j = 0; j < own; ++j) {
-    const float16 value = load_features(frame, pass, first + j, chunk) - shift;
+    const float16 value = load_chunk(frame, pass, first + j, chunk) - shift;
     rpf_lanes_add(&sum, j, rpf_or_zero(value));
     count += rpf_is_missing(value) ? 0 : 1;
   }
@@ -42,20 +37,19 @@ static void feature_moments(const Frame* frame, const rpf_pass* pass, uint first
   const float16 mean = count == 0 ? 0.0f : rpf_lanes_total(&sum) / number;
   rpf_lanes_clear(&sum);
   for (uint j = 0; j < own; ++j) {
-    const float16 off = (load_features(frame, pass, first + j, chunk) - shift) - mean;
+    const float16 off = (load_chunk(frame, pass, first + j, chunk) - shift) - mean;
     rpf_lanes_add(&sum, j, rpf_or_zero(off * off));
   }
   const float16 deviation = count == 0 ? 0.0f : sqrt(rpf_lanes_total(&sum) / number);
   const float16 tolerance =
       rpf_tolerance(vload16(chunk, frame->rejection_factor), deviation, vload16(chunk, frame->minimum_tolerance));
-  out->feature_shift[chunk] = shift;
   out->mean[chunk] = mean;
   out->deviation[chunk] = deviation;
   out->tolerance[chunk] = count == 0 ? INFINITY : tolerance;
 }
 
 static void own_moments(const Frame* frame, const rpf_pass* pass, uint first, uint own, OwnMoments* out) {
-  for (int c = 0; c < RPF_CHUNKS; ++c) out->shift[c] = rpf_or_zero(load_record(frame, pass, first, RPF_LANES * c));
+  for (int c = 0; c < RPF_CHUNKS; ++c) out->shift[c] = rpf_or_zero(load_chunk(frame, pass, first, c));
   for (int c = 0; c < RPF_FEATURE_CHUNKS; ++c) feature_moments(frame, pass, first, own, c, out);
 }
 
@@ -69,21 +63,6 @@ static int any_lane(int16 condition) {
 #endif
 }
 
-// The attempts of a draw from `attempt` on: a sample, or RPF_NO_SAMPLE where all left the image or met an empty pixel.
-static uint draw_sample(const Frame* frame, const rpf_pass* pass, rpf_words key, int x, int y, uint draw,
-                        uint attempt) {
-  for (; attempt < pass->attempts; ++attempt) {
-    const rpf_words words = rpf_draw_words(key, draw, attempt);
-    const int dx = frame->offsets[words.x & 0xFFFFu], dy = frame->offsets[words.x >> 16];
-    const int to_x = x + dx, to_y = y + dy;
-    if ((dx == 0 && dy == 0) || to_x < 0 || to_x >= pass->width || to_y < 0 || to_y >= pass->height) continue;
-    const uint pixel = (uint)to_y * (uint)pass->width + (uint)to_x;
-    const uint samples = samples_of(frame, pass, pixel);
-    if (samples > 0) return first_sample_of(frame, pass, pixel) + rpf_choose(words.y, samples);
-  }
-  return RPF_NO_SAMPLE;
-}
-
 static int16 look_up(__global const char* offsets, uint16 index) {
   uint lane[RPF_LANES];
   char offset[RPF_LANES];
@@ -93,55 +72,68 @@ static int16 look_up(__global const char* offsets, uint16 index) {
   return convert_int16(vload16(0, offset));
 }
 
-// The first attempts of RPF_LANES draws at once, where every pixel has RPF_SAMPLES samples. `failed`: lanes that have to
-// try again.
-static uint16 draw_samples(const Frame* frame, const rpf_pass* pass, rpf_words key, int x, int y, uint first_draw,
-                           int16* failed) {
-  const rpf_words16 words = rpf_draw_words(key, first_draw + as_uint16(RPF_LANE_NUMBERS), 0);
+// The samples that these words choose in these pixels. `failed` becomes -1 for empty pixels.
+static uint16 choose_samples(const Frame* frame, const rpf_pass* pass, uint16 pixel, uint16 word, int16* failed) {
+  if (RPF_SAMPLES > 0) return pixel * RPF_SAMPLES + mul_hi(word, (uint16)(RPF_SAMPLES));
+  uint pixels[RPF_LANES], words[RPF_LANES];
+  int skip[RPF_LANES];
+  vstore16(pixel, 0, pixels);
+  vstore16(word, 0, words);
+  vstore16(*failed, 0, skip);
+  for (int l = 0; l < RPF_LANES; ++l) {
+    const uint samples = skip[l] ? 0 : samples_of(frame, pass, pixels[l]);
+    words[l] = samples > 0 ? first_sample_of(frame, pass, pixels[l]) + rpf_choose(words[l], samples) : RPF_NO_SAMPLE;
+  }
+  const uint16 chosen = vload16(0, words);
+  *failed = chosen == RPF_NO_SAMPLE;
+  return chosen;
+}
+
+// One attempt of RPF_LANES draws. `failed`: the lanes that left the image or met an empty pixel.
+static uint16 attempt_draws(const Frame* frame, const rpf_pass* pass, rpf_words16 words, int x, int y, int16* failed) {
   const int16 dx = look_up(frame->offsets, words.x & 0xFFFFu), dy = look_up(frame->offsets, words.x >> 16);
   const int16 to_x = x + dx, to_y = y + dy;
   *failed = (dx | dy) == 0 | to_x < 0 | to_x >= pass->width | to_y < 0 | to_y >= pass->height;
-  const uint16 pixel = as_uint16(to_y) * (uint)pass->width + as_uint16(to_x);
-  return pixel * RPF_SAMPLES + mul_hi(words.y, (uint16)(RPF_SAMPLES));
+  return choose_samples(frame, pass, as_uint16(to_y) * (uint)pass->width + as_uint16(to_x), words.y, failed);
 }
 
-// Fills slot->candidates; returns their number.
+// Fills slot->candidates; returns their number. RPF_LANES draws are made at once; those that fail try again.
 static uint draw_candidates(const Frame* frame, const rpf_pass* pass, uint pixel, uint own, const Slot* slot) {
   const rpf_words key = rpf_draw_key(pass->seed, pass->pass, pixel);
   const int y = (int)(pixel / (uint)pass->width), x = (int)pixel - y * pass->width;
   const uint draws = frame->draws[own];
-  uint draw = 0, count = 0;
-  for (; RPF_SAMPLES > 0 && draw + RPF_LANES <= draws; draw += RPF_LANES) {
-    int16 failed;
-    const uint16 samples = draw_samples(frame, pass, key, x, y, draw, &failed);
-    if (any_lane(failed)) {
-      uint sample[RPF_LANES];
-      int again[RPF_LANES];
-      vstore16(samples, 0, sample);
-      vstore16(failed, 0, again);
-      for (uint l = 0; l < RPF_LANES; ++l) {
-        const uint candidate = again[l] ? draw_sample(frame, pass, key, x, y, draw + l, 1) : sample[l];
-        slot->candidates[count] = candidate;
-        count += candidate != RPF_NO_SAMPLE;
-      }
-    } else {
-      vstore16(samples, 0, slot->candidates + count);
-      count += RPF_LANES;
+  uint count = 0;
+  for (uint first = 0; first < draws; first += RPF_LANES) {
+    const uint16 draw = first + as_uint16(RPF_LANE_NUMBERS);
+    int16 failed = -1;
+    uint16 sample = RPF_NO_SAMPLE;
+    for (uint attempt = 0; attempt < pass->attempts && any_lane(failed); ++attempt) {
+      int16 failed_again;
+      const uint16 next = attempt_draws(frame, pass, rpf_draw_words(key, draw, attempt), x, y, &failed_again);
+      sample = failed ? next : sample;
+      failed &= failed_again;
     }
-  }
-  for (; draw < draws; ++draw) {
-    slot->candidates[count] = draw_sample(frame, pass, key, x, y, draw, 0);
-    count += slot->candidates[count] != RPF_NO_SAMPLE;
+    const int16 left_out = failed | (draw >= draws);
+    if (!any_lane(left_out)) {
+      vstore16(sample, 0, slot->candidates + count);
+      count += RPF_LANES;
+      continue;
+    }
+    uint samples[RPF_LANES];
+    vstore16(left_out ? RPF_NO_SAMPLE : sample, 0, samples);
+    for (int l = 0; l < RPF_LANES; ++l) {
+      slot->candidates[count] = samples[l];
+      count += samples[l] != RPF_NO_SAMPLE;
+    }
   }
   return count;
 }
 
 static int is_accepted(const Frame* frame, const rpf_pass* pass, uint sample, const OwnMoments* own) {
-  __global const float16* features = frame->features + (size_t)(sample - pass->first_sample) * RPF_REJECTING_CHUNKS;
   int16 rejected = 0;
 #pragma unroll
   for (int c = 0; c < RPF_REJECTING_CHUNKS; ++c)
-    rejected |= rpf_rejects(features[c] - own->feature_shift[c], own->mean[c], own->tolerance[c]);
+    rejected |= rpf_rejects(load_chunk(frame, pass, sample, c) - own->shift[c], own->mean[c], own->tolerance[c]);
   return !any_lane(rejected);
 }
 
@@ -191,11 +183,12 @@ static void fill_columns(const Frame* frame, const rpf_pass* pass, uint neighbor
       for (uint l = 0; l < RPF_LANES; ++l) {
         const uint j = block * RPF_LANES + l;
         rows[l] = NAN;
-        if (j < neighbors) rows[l] = load_record(frame, pass, slot->neighbors[j], RPF_LANES * c) - moments->shift[c];
+        if (j < neighbors) rows[l] = load_chunk(frame, pass, slot->neighbors[j], c) - moments->shift[c];
       }
       transpose(rows);
 #pragma unroll
       for (int v = 0; v < RPF_LANES; ++v)
-        if (RPF_LANES * c + v < RPF_VARIABLES) slot->columns[(RPF_LANES * c + v) * slot->blocks + block] = rows[v];
+        if (RPF_LANES * c + v < RPF_VARIABLES)
+          slot->columns[variable_at((uint)(RPF_LANES * c + v)) * slot->blocks + block] = rows[v];
     }
 }

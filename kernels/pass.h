@@ -24,6 +24,7 @@ typedef struct {
   int tile_width, tile_height;  // pixels
   uint first_pixel;             // the first pixel and the first sample of the band that is on the device
   uint first_sample;            //
+  uint samples;                 // of the band
   uint seed, pass, attempts;    // of the draws (section 3)
   uint capacity;                // neighbors that a scratch slot holds, a multiple of RPF_LANES
   int entropy_slack;            // units that cannot be told from 0 (section 5)

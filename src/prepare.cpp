@@ -7,7 +7,6 @@
 
 #include "clean.h"
 #include "frame.h"
-#include "numeric.h"
 #include "rpf/error.h"
 
 namespace rpf {
@@ -145,7 +144,7 @@ std::vector<float> repack(SampleBuffer& samples, const std::vector<Source>& sour
     for (std::size_t v = 0; v < sources.size(); ++v)
       target[i * sources.size() + v] = value_of(record.data(), sources[v], scale);
   }
-  target.resize(samples.sample_count() * sources.size() + RPF_LANES);  // see Frame::records
+  target.resize(samples.sample_count() * sources.size());
   return std::move(target);
 }
 

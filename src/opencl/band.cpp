@@ -10,15 +10,15 @@ std::size_t pixel_number(const Frame& frame, int row) {
 }
 
 std::uint64_t record_bytes(const Frame& frame, std::uint64_t samples) {
-  return (samples * frame.variables + RPF_LANES) * sizeof(float);  // vector loads may reach behind the last record
+  return samples * frame.variables * sizeof(float);
 }
 
 std::uint64_t color_bytes(std::uint64_t samples, const SampleFloats& floats) {
   return samples * floats.carried * sizeof(float);
 }
 
-std::uint64_t feature_bytes(std::uint64_t samples, const SampleFloats& floats) {
-  return samples * floats.features * sizeof(float);
+std::uint64_t chunk_bytes(std::uint64_t samples, const SampleFloats& floats) {
+  return samples * floats.chunks * sizeof(float);
 }
 
 std::uint64_t sample_count(const Frame& frame, const Rows& rows) {
@@ -28,19 +28,19 @@ std::uint64_t sample_count(const Frame& frame, const Rows& rows) {
 }  // namespace
 
 SampleFloats::SampleFloats(const Plan& plan)
-    : features((plan.rejecting + RPF_LANES - 1) / RPF_LANES * RPF_LANES), carried(plan.carried) {}
+    : chunks((plan.variables.count() + RPF_LANES - 1) / RPF_LANES * RPF_LANES), carried(plan.carried) {}
 
 std::uint64_t band_bytes(const Frame& frame, const SampleFloats& floats, const Rows& rows) {
   const std::size_t pixels = pixel_number(frame, rows.end) - pixel_number(frame, rows.begin);
   const std::uint64_t per_pixel = (pixels + 1) * sizeof(std::uint32_t) + pixels * sizeof(kernel::rpf_pixel_statistics);
   const std::uint64_t samples = sample_count(frame, rows);
-  return record_bytes(frame, samples) + feature_bytes(samples, floats) + 2 * color_bytes(samples, floats) + per_pixel;
+  return record_bytes(frame, samples) + chunk_bytes(samples, floats) + 2 * color_bytes(samples, floats) + per_pixel;
 }
 
 bool fits(const Frame& frame, const SampleFloats& floats, const Rows& rows, const BandLimit& limit) {
   const std::uint64_t samples = sample_count(frame, rows);
   return band_bytes(frame, floats, rows) <= limit.total &&
-         std::max({record_bytes(frame, samples), feature_bytes(samples, floats), color_bytes(samples, floats)}) <=
+         std::max({record_bytes(frame, samples), chunk_bytes(samples, floats), color_bytes(samples, floats)}) <=
              limit.buffer;
 }
 
@@ -64,10 +64,11 @@ Band make_band(Session& session, const BandSource& source, int pass, const Rows&
   band.rows = rows;
   band.first_pixel = static_cast<std::uint32_t>(begin);
   band.first_sample = static_cast<std::uint32_t>(first);
+  band.samples = static_cast<std::uint32_t>(samples);
   band.first_samples = session.host_buffer(frame.first_sample.data() + begin, (end - begin + 1) * sizeof(std::uint32_t),
                                            CL_MEM_READ_ONLY);
   band.records = session.host_buffer(frame.record(first), record_bytes(frame, samples), CL_MEM_READ_ONLY);
-  band.features = session.buffer(std::max<std::uint64_t>(feature_bytes(samples, source.floats), sizeof(float)));
+  band.chunks = session.buffer(std::max<std::uint64_t>(chunk_bytes(samples, source.floats), sizeof(float)));
   band.colors = session.host_buffer(source.colors.data() + first * source.floats.carried, colors, CL_MEM_READ_ONLY);
   band.next_colors =
       session.host_buffer(source.next_colors.data() + first * source.floats.carried, colors, CL_MEM_READ_WRITE);

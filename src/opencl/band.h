@@ -21,9 +21,10 @@ struct Band {
   int pass = 0;
   Rows rows;
   std::uint32_t first_pixel = 0, first_sample = 0;
+  std::uint32_t samples = 0;
   cl::Buffer first_samples;  ///< [pixel + 1]
   cl::Buffer records;        ///< [sample][variables]
-  cl::Buffer features;       ///< [sample][rejecting chunks][RPF_LANES] a copy, made on the device
+  cl::Buffer chunks;         ///< [chunk][sample][RPF_LANES] the records as frame.cl lays them out, on the device
   cl::Buffer colors;         ///< [sample][carried] c'
   cl::Buffer next_colors;    ///< [sample][carried] c''
   cl::Buffer statistics;     ///< [pixel]
@@ -31,7 +32,7 @@ struct Band {
 
 /// Floats a sample.
 struct SampleFloats {
-  std::size_t features = 0;  ///< of Band::features, whole vectors
+  std::size_t chunks = 0;  ///< of Band::chunks, whole vectors
   std::size_t carried = 0;
 
   explicit SampleFloats(const Plan& plan);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr float unlimited = std::numeric_limits<float>::infinity();
 
-/// Keeps what is copied for a band small beside the frame, and costs nothing: bands overlap by a box width.
-constexpr std::uint64_t most_band_bytes = 512U << 20U;
+/// Keeps what is laid out for a band small beside the frame. It costs little: bands overlap by a box width.
+constexpr std::uint64_t most_band_bytes = 256U << 20U;
 
 /// Work-items for each compute unit of a device that hides latency by switching between them.
 constexpr std::size_t items_per_gpu_unit = 64;
@@ -78,7 +78,7 @@ void OpenClBackend::load(const Frame& frame, std::vector<float> colors, const Pl
   on_device("preparing the filter", [&] {
     const cl::Program& program = session_.program("filter.cl", definitions(frame, plan));
     kernel_ = cl::Kernel(program, "filter_tile");
-    collect_kernel_ = cl::Kernel(program, "collect_features");
+    layout_kernel_ = cl::Kernel(program, "lay_out_records");
     rejection_factor_ = session_.copy(padded(plan.rejection_factor));
     minimum_tolerance_ = session_.copy(padded(plan.minimum_tolerance));
     scratch_ = std::make_unique<Scratch>(session_, plan, items_);
@@ -108,18 +108,16 @@ const Band& OpenClBackend::band_for(int pass, const Rows& needed) {
     band_.reset();
     band_ = std::make_unique<Band>(
         make_band(session_, {*frame_, colors_, next_colors_, statistics_, SampleFloats(*plan_)}, pass, rows));
-    collect_features(*band_);
+    lay_out_records(*band_);
   }
   return *band_;
 }
 
-void OpenClBackend::collect_features(const Band& band) {
-  const std::size_t begin = static_cast<std::size_t>(band.rows.begin) * plan_->width,
-                    end = static_cast<std::size_t>(band.rows.end) * plan_->width;
-  collect_kernel_.setArg(0, band.records);
-  collect_kernel_.setArg(1, band.features);
-  collect_kernel_.setArg(2, frame_->first_sample[end] - frame_->first_sample[begin]);
-  session_.launch(collect_kernel_, items_, 1);
+void OpenClBackend::lay_out_records(const Band& band) {
+  layout_kernel_.setArg(0, band.records);
+  layout_kernel_.setArg(1, band.chunks);
+  layout_kernel_.setArg(2, band.samples);
+  session_.launch(layout_kernel_, items_, 1);
 }
 
 kernel::rpf_pass OpenClBackend::arguments(int pass, const Window& tile, const Band& band) const {
@@ -133,6 +131,7 @@ kernel::rpf_pass OpenClBackend::arguments(int pass, const Window& tile, const Ba
   a.tile_height = tile.height;
   a.first_pixel = band.first_pixel;
   a.first_sample = band.first_sample;
+  a.samples = band.samples;
   a.seed = plan_->seed;
   a.pass = static_cast<std::uint32_t>(pass);
   a.attempts = plan_->attempts;
@@ -150,8 +149,7 @@ kernel::rpf_pass OpenClBackend::arguments(int pass, const Window& tile, const Ba
 void OpenClBackend::launch(int pass, const Window& tile, const Band& band, std::size_t items, const Results& results) {
   const PassTables& t = tables(pass);
   const cl::Buffer* buffers[] = {&band.first_samples,
-                                 &band.records,
-                                 &band.features,
+                                 &band.chunks,
                                  &band.colors,
                                  &t.offsets,
                                  &t.draws,

@@ -43,7 +43,7 @@ class OpenClBackend : public Backend {
   const PassTables& tables(int pass);
   BandLimit band_limit() const;
   const Band& band_for(int pass, const Rows& needed);
-  void collect_features(const Band& band);
+  void lay_out_records(const Band& band);
   kernel::rpf_pass arguments(int pass, const Window& tile, const Band& band) const;
   void launch(int pass, const Window& tile, const Band& band, std::size_t items, const Results& results);
   void run_halves(int pass, const Window& tile);
@@ -58,7 +58,7 @@ class OpenClBackend : public Backend {
   std::vector<float> colors_, next_colors_;  ///< c' and c'': [sample][carried]
   std::vector<PixelStatistics> statistics_;  ///< [pixel]
 
-  cl::Kernel kernel_, collect_kernel_;
+  cl::Kernel kernel_, layout_kernel_;
   cl::Buffer rejection_factor_, minimum_tolerance_;
   std::vector<PassTables> tables_;  ///< of the passes so far
   std::unique_ptr<Scratch> scratch_;

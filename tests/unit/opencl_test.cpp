@@ -55,7 +55,7 @@ TEST(Band, IsAsManyRowsAsFitFromTheNeededOnesOn) {
 TEST(Band, RespectsTheLargestBuffer) {
   const Frame frame = frame_of_ten_rows();
   const std::uint64_t plenty = std::numeric_limits<std::uint64_t>::max();
-  const std::uint64_t records_of_two_rows = (2 * 3 * 2 * 5 + RPF_LANES) * sizeof(float);
+  const std::uint64_t records_of_two_rows = 2 * 3 * 2 * RPF_LANES * sizeof(float);  // laid out: 5 variables in a vector
   EXPECT_TRUE(fits(frame, color_only(), {0, 2}, {plenty, records_of_two_rows}));
   EXPECT_FALSE(fits(frame, color_only(), {0, 3}, {plenty, records_of_two_rows}));
 }
