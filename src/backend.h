@@ -33,8 +33,8 @@ class Backend {
   virtual const std::vector<float>& colors() const = 0;
   /// [pixel], of the latest pass run.
   virtual const std::vector<PixelStatistics>& statistics() const = 0;
-  /// Peak bytes of scratch memory beside frame and result.
-  virtual std::uint64_t scratch_bytes(const Plan& plan) const = 0;
+  /// Peak bytes of the backend's own memory beside frame and result, for a frame of so many samples.
+  virtual std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const = 0;
   /// All intermediate values of one pixel, from the state before end_pass(). Changes nothing.
   virtual PixelTrace trace(int pass, std::uint32_t pixel) = 0;
 };

@@ -44,7 +44,7 @@ std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, 
   // The buffer that was read becomes the records, unless these are longer; then both exist for a moment.
   const std::uint64_t read = layout.size(), records = facts.variables.count();
   const std::uint64_t floats = records <= read ? read : read + records;
-  return filtering_bytes(size, floats, facts.carried) + make_backend(settings)->scratch_bytes(plan);
+  return filtering_bytes(size, floats, facts.carried) + make_backend(settings)->scratch_bytes(plan, size.samples);
 }
 
 void check_memory(const SampleBuffer& samples, const Settings& settings) {

@@ -98,7 +98,7 @@ PixelTrace CpuBackend::trace(int pass, std::uint32_t pixel) {
   return t;
 }
 
-std::uint64_t CpuBackend::scratch_bytes(const Plan& plan) const {
+std::uint64_t CpuBackend::scratch_bytes(const Plan& plan, std::uint64_t /*samples*/) const {
   std::uint64_t neighbors = 0;
   for (const PassPlan& pass : plan.passes) neighbors = std::max<std::uint64_t>(neighbors, pass.max_neighbors);
   const std::uint64_t variables = plan.variables.count();

@@ -23,7 +23,7 @@ class CpuBackend : public Backend {
   void end_pass() override;
   const std::vector<float>& colors() const override { return colors_; }
   const std::vector<PixelStatistics>& statistics() const override { return statistics_; }
-  std::uint64_t scratch_bytes(const Plan& plan) const override;
+  std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const override;
   PixelTrace trace(int pass, std::uint32_t pixel) override;
 
  private:

@@ -211,7 +211,10 @@ void OpenClBackend::end_pass() {
   colors_.swap(next_colors_);
 }
 
-std::uint64_t OpenClBackend::scratch_bytes(const Plan& plan) const { return items_ * ScratchSizes(plan).bytes(); }
+std::uint64_t OpenClBackend::scratch_bytes(const Plan& plan, std::uint64_t samples) const {
+  const std::uint64_t laid_out = samples * SampleFloats(plan).chunks * sizeof(float);
+  return items_ * ScratchSizes(plan).bytes() + std::min(laid_out, most_band_bytes);
+}
 
 PixelTrace OpenClBackend::trace(int pass, std::uint32_t pixel) {
   const Window tile{static_cast<int>(pixel) % plan_->width, static_cast<int>(pixel) / plan_->width, 1, 1};
