@@ -78,7 +78,7 @@ RPF_CPU_FEATURES static rpf_pixel_statistics filter_pixel(const Frame* frame, co
 
   Coordinates coordinates;
   choose_coordinates(pass, own, &weights.color, weights.beta, &coordinates);
-  filter_samples(frame, pass, own, neighbors, slot, &coordinates, trace, out);
+  filter_samples(own, neighbors, slot, &coordinates, trace, out);
   if (trace->values) {
     trace_moments(trace, &moments);
     for (uint i = 0; i < own * RPF_CARRIED; ++i) trace->values[trace->at.filtered + i] = out[i];
@@ -87,14 +87,19 @@ RPF_CPU_FEATURES static rpf_pixel_statistics filter_pixel(const Frame* frame, co
   return statistics;
 }
 
-// Lays the records of a band out as filter_tile reads them: [RPF_CHUNKS][sample], in the order of place_of().
-__kernel void lay_out_records(__global const float* records, __global float16* chunks, uint samples) {
+// Lays the records and c' of a band out as filter_tile reads them: [RPF_CHUNKS][sample], in the order of place_of().
+__kernel void lay_out_records(__global const float* records, __global const float* colors, __global float16* chunks,
+                              uint samples) {
   for (uint s = (uint)get_global_id(0); s < samples; s += (uint)get_global_size(0))
     for (uint c = 0; c < RPF_CHUNKS; ++c) {
       float values[RPF_LANES];
       for (uint l = 0; l < RPF_LANES; ++l) {
         const uint place = RPF_LANES * c + l;
-        values[l] = place < RPF_VARIABLES ? records[(size_t)s * RPF_VARIABLES + variable_at(place)] : 0.0f;
+        values[l] = 0.0f;
+        if (place < RPF_VARIABLES)
+          values[l] = records[(size_t)s * RPF_VARIABLES + variable_at(place)];
+        else if (place < RPF_VARIABLES + RPF_CARRIED)
+          values[l] = colors[(size_t)s * RPF_CARRIED + place - RPF_VARIABLES];
       }
       chunks[(size_t)c * samples + s] = vload16(0, values);
     }
@@ -103,13 +108,13 @@ __kernel void lay_out_records(__global const float* records, __global float16* c
 // Filters the pixels of a tile. `next_colors` [sample][RPF_CARRIED] and `statistics` [pixel] cover the band. Where
 // `trace_values` is not null the tile is one pixel.
 __kernel void filter_tile(__global const uint* first_sample, __global const float16* chunks,
-                          __global const float* colors, __global const char* offsets, __global const uint* draws,
+                          __global const char* offsets, __global const uint* draws,
                           __global const int* entropy, __global const float* rejection_factor,
                           __global const float* minimum_tolerance, __global uint* candidates, __global uint* neighbors,
                           __global float16* columns, __global uint* planes, __global float16* neighbor_colors,
                           __global float* next_colors, __global rpf_pixel_statistics* statistics,
                           __global float* trace_values, __global uint* trace_histograms, const rpf_pass pass) {
-  const Frame frame = {first_sample, chunks, colors, offsets, draws, entropy, rejection_factor, minimum_tolerance};
+  const Frame frame = {first_sample, chunks, offsets, draws, entropy, rejection_factor, minimum_tolerance};
   Trace trace;
   trace.values = trace_values;
   trace.histograms = trace_histograms;

@@ -7,7 +7,7 @@
 #include "rpf_math.h"
 #include "trace_layout.h"
 
-#define RPF_CHUNKS ((RPF_VARIABLES + RPF_LANES - 1) / RPF_LANES)  // vectors that hold a record
+#define RPF_CHUNKS ((RPF_VARIABLES + RPF_CARRIED + RPF_LANES - 1) / RPF_LANES)  // vectors that hold a record and its c'
 #define RPF_FEATURE_CHUNKS ((RPF_FEATURES + RPF_LANES - 1) / RPF_LANES)
 #define RPF_REJECTING_CHUNKS ((RPF_REJECTING + RPF_LANES - 1) / RPF_LANES)
 #define RPF_POSITION 3                                            // first position coordinate of a record
@@ -31,8 +31,7 @@
 // they have in the whole frame.
 typedef struct {
   __global const uint* first_sample;        // [pixel + 1]
-  __global const float16* chunks;           // [RPF_CHUNKS][sample] records, in the order of place_of()
-  __global const float* colors;             // [sample][RPF_CARRIED] c'
+  __global const float16* chunks;           // [RPF_CHUNKS][sample] records, in the order of place_of(), and c'
   __global const char* offsets;             // [65536] of the draws
   __global const uint* draws;               // [samples of a pixel] candidates to draw
   __global const int* entropy;              // [n] S n log2 n
@@ -41,7 +40,7 @@ typedef struct {
 } Frame;
 
 // On the device a record begins with its features, those that can reject it first: to test a candidate is to read one
-// cache line in most cases.
+// cache line in most cases. Behind the variables stand the RPF_CARRIED values of c', so that what is averaged comes along.
 static uint place_of(uint variable) {
   return variable < RPF_FIRST_FEATURE ? variable + RPF_FEATURES : variable - RPF_FIRST_FEATURE;
 }

@@ -48,8 +48,14 @@ static void feature_moments(const Frame* frame, const rpf_pass* pass, uint first
   out->tolerance[chunk] = count == 0 ? INFINITY : tolerance;
 }
 
+// The first own sample's variables, 0 where they are missing; c' is not shifted.
+static float16 shift_of(const Frame* frame, const rpf_pass* pass, uint first, int chunk) {
+  const int16 is_variable = RPF_LANE_NUMBERS < RPF_VARIABLES - RPF_LANES * chunk;
+  return is_variable ? rpf_or_zero(load_chunk(frame, pass, first, chunk)) : 0.0f;
+}
+
 static void own_moments(const Frame* frame, const rpf_pass* pass, uint first, uint own, OwnMoments* out) {
-  for (int c = 0; c < RPF_CHUNKS; ++c) out->shift[c] = rpf_or_zero(load_chunk(frame, pass, first, c));
+  for (int c = 0; c < RPF_CHUNKS; ++c) out->shift[c] = shift_of(frame, pass, first, c);
   for (int c = 0; c < RPF_FEATURE_CHUNKS; ++c) feature_moments(frame, pass, first, own, c, out);
 }
 
@@ -173,6 +179,13 @@ static void transpose(float16* rows) {
   }
 }
 
+static void store_column(const Slot* slot, uint place, uint block, float16 values) {
+  if (place < RPF_VARIABLES)
+    slot->columns[variable_at(place) * slot->blocks + block] = values;
+  else if (place < RPF_VARIABLES + RPF_CARRIED)
+    slot->colors[(place - RPF_VARIABLES) * slot->blocks + block] = values;
+}
+
 // Records to columns, less the shift. Behind the last neighbor all values are missing, so that sums leave them out.
 static void fill_columns(const Frame* frame, const rpf_pass* pass, uint neighbors, const OwnMoments* moments,
                          const Slot* slot) {
@@ -187,8 +200,6 @@ static void fill_columns(const Frame* frame, const rpf_pass* pass, uint neighbor
       }
       transpose(rows);
 #pragma unroll
-      for (int v = 0; v < RPF_LANES; ++v)
-        if (RPF_LANES * c + v < RPF_VARIABLES)
-          slot->columns[variable_at((uint)(RPF_LANES * c + v)) * slot->blocks + block] = rows[v];
+      for (int v = 0; v < RPF_LANES; ++v) store_column(slot, (uint)(RPF_LANES * c + v), block, rows[v]);
     }
 }

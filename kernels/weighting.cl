@@ -26,13 +26,13 @@ static void choose_coordinates(const rpf_pass* pass, uint own, const rpf_color_w
     add_coordinate(RPF_FIRST_FEATURE + k, rpf_distance_scale(sharpness, beta[k]), out);
 }
 
-// The neighbors' c' as columns. The first neighbor's stand behind the last one: weight 0, and inside every range.
-static void collect_colors(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot) {
-  const uint blocks = (neighbors + RPF_LANES - 1) / RPF_LANES;
-  for (uint j = 0; j < blocks * RPF_LANES; ++j) {
-    const uint sample = slot->neighbors[j < neighbors ? j : 0];
-    __global const float* color = frame->colors + (size_t)(sample - pass->first_sample) * RPF_CARRIED;
-    for (uint c = 0; c < RPF_CARRIED; ++c) ((__global float*)(slot->colors + c * slot->blocks))[j] = color[c];
+// Behind the last neighbor stands the first one's c': it has no weight, and it is inside every range.
+static void fill_up_colors(uint neighbors, const Slot* slot) {
+  if (neighbors % RPF_LANES == 0) return;
+  for (int c = 0; c < RPF_CARRIED; ++c) {
+    __global float16* column = slot->colors + c * slot->blocks;
+    const int16 is_neighbor = RPF_LANE_NUMBERS < (int)(neighbors % RPF_LANES);
+    column[neighbors / RPF_LANES] = is_neighbor ? column[neighbors / RPF_LANES] : column[0].s0;
   }
 }
 
@@ -105,9 +105,9 @@ static void filter_batch(const Slot* slot, const Coordinates* coordinates, uint 
           rpf_filtered(lanes_total(color_sum[i][c]), lanes_total(weight_sum[i]), range[c].x, range[c].y);
 }
 
-static void filter_samples(const Frame* frame, const rpf_pass* pass, uint own, uint neighbors, const Slot* slot,
-                           const Coordinates* coordinates, const Trace* trace, __global float* out) {
-  collect_colors(frame, pass, neighbors, slot);
+static void filter_samples(uint own, uint neighbors, const Slot* slot, const Coordinates* coordinates,
+                           const Trace* trace, __global float* out) {
+  fill_up_colors(neighbors, slot);
   float2 range[RPF_CARRIED];
   for (int c = 0; c < RPF_CARRIED; ++c)
     range[c] = range_of(slot->colors + c * slot->blocks, (neighbors + RPF_LANES - 1) / RPF_LANES);

@@ -28,7 +28,7 @@ std::uint64_t sample_count(const Frame& frame, const Rows& rows) {
 }  // namespace
 
 SampleFloats::SampleFloats(const Plan& plan)
-    : chunks((plan.variables.count() + RPF_LANES - 1) / RPF_LANES * RPF_LANES), carried(plan.carried) {}
+    : chunks((plan.variables.count() + plan.carried + RPF_LANES - 1) / RPF_LANES * RPF_LANES), carried(plan.carried) {}
 
 std::uint64_t band_bytes(const Frame& frame, const SampleFloats& floats, const Rows& rows) {
   const std::size_t pixels = pixel_number(frame, rows.end) - pixel_number(frame, rows.begin);

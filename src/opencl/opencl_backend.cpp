@@ -115,8 +115,9 @@ const Band& OpenClBackend::band_for(int pass, const Rows& needed) {
 
 void OpenClBackend::lay_out_records(const Band& band) {
   layout_kernel_.setArg(0, band.records);
-  layout_kernel_.setArg(1, band.chunks);
-  layout_kernel_.setArg(2, band.samples);
+  layout_kernel_.setArg(1, band.colors);
+  layout_kernel_.setArg(2, band.chunks);
+  layout_kernel_.setArg(3, band.samples);
   session_.launch(layout_kernel_, items_, 1);
 }
 
@@ -150,7 +151,6 @@ void OpenClBackend::launch(int pass, const Window& tile, const Band& band, std::
   const PassTables& t = tables(pass);
   const cl::Buffer* buffers[] = {&band.first_samples,
                                  &band.chunks,
-                                 &band.colors,
                                  &t.offsets,
                                  &t.draws,
                                  &t.entropy,
