@@ -56,7 +56,8 @@ static void weigh(const Frame* frame, const rpf_pass* pass, uint neighbors, cons
   trace_floats(trace, trace->at.beta, out->beta, RPF_FEATURES);
 }
 
-RPF_CPU_FEATURES static rpf_pixel_statistics filter_pixel(const Frame* frame, const rpf_pass* pass, uint pixel, const Slot* slot,
+RPF_CPU_FEATURES
+static rpf_pixel_statistics filter_pixel(const Frame* frame, const rpf_pass* pass, uint pixel, const Slot* slot,
                                          const Trace* trace, __global float* out) {
   const uint first = first_sample_of(frame, pass, pixel), own = samples_of(frame, pass, pixel);
   rpf_pixel_statistics statistics = {0, 0, 0.0f, 0.0f, 0.0f};
