@@ -17,8 +17,8 @@
 #define RPF_NO_SAMPLE 0xFFFFFFFFu
 
 // PoCL compiles for the newest processor that its LLVM knows. Where the host has an instruction that counts bits in vectors
-// and says so (RPF_VECTOR_POPCOUNT), the function that does the work is compiled for it.
-#ifdef RPF_VECTOR_POPCOUNT
+// and says so (RPF_AVX512), the function that does the work is compiled for it.
+#ifdef RPF_AVX512
 #define RPF_CPU_FEATURES \
   __attribute__((noinline, target("avx512vpopcntdq,avx512f,avx512bw,avx512cd,avx512dq,avx512vl,popcnt")))
 #else

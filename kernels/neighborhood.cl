@@ -60,8 +60,8 @@ static void own_moments(const Frame* frame, const rpf_pass* pass, uint first, ui
 }
 
 static int any_lane(int16 condition) {
-#if defined(__has_builtin) && __has_builtin(__builtin_reduce_or)
-  return __builtin_reduce_or(condition) != 0;  // a test of the comparison's mask
+#if defined(RPF_AVX512) && __has_builtin(__builtin_reduce_or)
+  return __builtin_reduce_or(condition) != 0;  // a test of the comparison's mask; Oclgrind does not know it
 #else
   const int8 a = condition.lo | condition.hi;
   const int4 b = a.lo | a.hi;

@@ -36,8 +36,8 @@ int index_of(const std::string& text, std::size_t count) {
   return static_cast<std::size_t>(index) < count ? index : -1;
 }
 
-/// Whether this is PoCL on a processor that counts bits in vectors; frame.cl says what for.
-bool has_vector_popcount(const cl::Device& device) {
+/// Whether this is PoCL on a processor whose AVX-512 counts bits in vectors; frame.cl says what for.
+bool has_new_avx512(const cl::Device& device) {
 #ifdef __x86_64__
   const std::string version = device.getInfo<CL_DEVICE_VERSION>();
   return version.find("PoCL") != std::string::npos && (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0 &&
@@ -53,7 +53,7 @@ bool has_vector_popcount(const cl::Device& device) {
 std::string build_options(const cl::Device& device, const std::string& definitions) {
   const bool asks = (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
   return "-cl-std=CL1.2 " + std::string(asks ? "-cl-fp32-correctly-rounded-divide-sqrt " : "") +
-         (has_vector_popcount(device) ? "-DRPF_VECTOR_POPCOUNT " : "") + definitions;
+         (has_new_avx512(device) ? "-DRPF_AVX512 " : "") + definitions;
 }
 
 }  // namespace
