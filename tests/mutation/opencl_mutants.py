@@ -50,7 +50,7 @@ MUTANTS = [
     Mutant("cl_group", STATISTICS, "planes + bin * words + group * RPF_LANES", "planes + bin * words",
            "conformance max-samples/1025 any", "bit planes: the last 512 neighbors only"),
     Mutant("cl_mask", STATISTICS, "uint16 plane = is_neighbor;", "uint16 plane = 0xFFFFFFFFu;",
-           "conformance max-samples/17 bins", "bit planes: what is no neighbor counts"),
+           "conformance max-samples/17 any", "bit planes: what is no neighbor counts"),
     Mutant("cl_margin", STATISTICS, "left[last_y] -= rest;", "", DOF + "histograms", "histograms: the last column"),
     Mutant("cl_information", STATISTICS, "joint - margin[x] - margin[y] + all", "joint - margin[x] - margin[y] - all",
            DOF + "information", "sign of N ln N"),
