@@ -35,6 +35,17 @@ RPF_INLINE float rpf_inverse_deviation(float variance, float largest) {
 
 // ---- section 5: mutual information ----------------------------------------------------------------------------------
 
+// Vectors of RPF_LANES neighbors that hold them all.
+RPF_INLINE uint rpf_blocks(uint neighbors) { return (neighbors + RPF_LANES - 1) / RPF_LANES; }
+
+// Words of a bit plane with one bit a neighbor, a power of two or a multiple of 16 (statistics.cl has the layout).
+RPF_INLINE uint rpf_plane_words(uint neighbors) {
+  const uint blocks = rpf_blocks(neighbors);
+  if (blocks <= 4) return 2;
+  if (blocks <= 8) return 4;
+  return blocks <= 16 ? 8 : (blocks + 31) / 32 * RPF_LANES;
+}
+
 // I(X,Y) in nats from units = S * (sum h_xy log2 h_xy - sum h_x log2 h_x - sum h_y log2 h_y + N log2 N), an integer sum
 // over the table of src/tables.h. Every entry is off by at most half a unit, so a sum of `slack` units or less is
 // indistinguishable from 0 and counts as 0: exactly independent variables have no mutual information.

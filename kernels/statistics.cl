@@ -53,7 +53,7 @@ static float16 squared(float16 value, float mean, int may_miss) {
 
 // Section 4 for one variable, in place. Returns mean (relative to the shift) and inverse deviation.
 static float2 normalize_column(__global float16* column, uint neighbors, float shift) {
-  const uint full = neighbors / RPF_LANES, blocks = (neighbors + RPF_LANES - 1) / RPF_LANES;
+  const uint full = neighbors / RPF_LANES, blocks = rpf_blocks(neighbors);
   ColumnSums sums = {0.0f, 0.0f, 0};
   for (uint b = 0; b < full; ++b) add_values(column[b], shift, RPF_MISSING, &sums);
   if (full < blocks) add_values(column[full], shift, 1, &sums);
@@ -68,14 +68,6 @@ static float2 normalize_column(__global float16* column, uint neighbors, float s
   }
   for (uint b = 0; b < blocks; ++b) column[b] = rpf_normalize(column[b], moments.x, moments.y);
   return moments;
-}
-
-// Words of a plane, a power of two or a multiple of 16.
-static uint plane_words(uint neighbors) {
-  const uint blocks = (neighbors + RPF_LANES - 1) / RPF_LANES;
-  if (blocks <= 4) return 2;
-  if (blocks <= 8) return 4;
-  return blocks <= 16 ? 8 : (blocks + 31) / 32 * RPF_LANES;
 }
 
 // Stores one group of a plane; one that is not full is folded to `words` words.
@@ -109,7 +101,7 @@ static uint16 plane_of(const uint16* number, int bin, uint16 is_neighbor) {
 
 // The bit planes of one normalized column.
 static void fill_planes(__global const float16* column, uint neighbors, uint words, __global uint* planes) {
-  const uint blocks = (neighbors + RPF_LANES - 1) / RPF_LANES;
+  const uint blocks = rpf_blocks(neighbors);
   for (uint group = 0; group * 32 < blocks; ++group) {
     uint16 number[RPF_BIN_BITS];
 #pragma unroll
@@ -209,7 +201,7 @@ static uint joint_entropy(__global const int* entropy, __global const uint* plan
 // position and random parameters.
 static void measure_dependencies(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot,
                                  const Trace* trace, float* information) {
-  const uint words = plane_words(neighbors), variable_words = RPF_BINS * words;
+  const uint words = rpf_plane_words(neighbors), variable_words = RPF_BINS * words;
   OccupiedBins occupied[RPF_VARIABLES];
   uint margin[RPF_VARIABLES];
   for (uint v = 0; v < RPF_VARIABLES; ++v) {

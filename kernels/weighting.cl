@@ -78,7 +78,7 @@ static void trace_weights(const Trace* trace, uint sample, uint neighbors, uint 
 // Filters RPF_BATCH own samples from `begin`: out[own][RPF_CARRIED]. Behind the last own sample it repeats that one.
 static void filter_batch(const Slot* slot, const Coordinates* coordinates, uint begin, uint own, uint neighbors,
                          const float2* range, const Trace* trace, __global float* out) {
-  const uint blocks = (neighbors + RPF_LANES - 1) / RPF_LANES;
+  const uint blocks = rpf_blocks(neighbors);
   float own_value[RPF_BATCH][3 + RPF_FEATURES];
   float16 weight_sum[RPF_BATCH], color_sum[RPF_BATCH][RPF_CARRIED], weight[RPF_BATCH];
   for (uint i = 0; i < RPF_BATCH; ++i) {
@@ -110,7 +110,7 @@ static void filter_samples(uint own, uint neighbors, const Slot* slot, const Coo
   fill_up_colors(neighbors, slot);
   float2 range[RPF_CARRIED];
   for (int c = 0; c < RPF_CARRIED; ++c)
-    range[c] = range_of(slot->colors + c * slot->blocks, (neighbors + RPF_LANES - 1) / RPF_LANES);
+    range[c] = range_of(slot->colors + c * slot->blocks, rpf_blocks(neighbors));
   for (uint begin = 0; begin < own; begin += RPF_BATCH)
     filter_batch(slot, coordinates, begin, own, neighbors, range, trace, out);
 }

@@ -94,17 +94,6 @@ void write_feature_files(const std::string& folder, const Image& features) {
   }
 }
 
-Result filter_with_progress(SampleBuffer samples, const Settings& settings, const std::string& mode) {
-  const SignalGuard guard;
-  ProgressBar bar(mode);
-  Control control;
-  control.progress = [&](const Progress& progress) {
-    bar.show(progress);
-    return received_signal() == 0;
-  };
-  return filter(std::move(samples), settings, control);
-}
-
 void write_results(const FilterOptions& options, const Result& result) {
   const SignalGuard guard;  // a signal now waits until the files are whole
   write_image(options.output, result.image);
@@ -135,7 +124,9 @@ int run(const FilterOptions& options) {
   const double start = cpu_seconds();
   SampleBuffer samples = read_samples(options.input, read_options);
   const double read = cpu_seconds();
-  const Result result = filter_with_progress(std::move(samples), settings, options.quiet ? "never" : options.progress);
+  const Result result = with_progress(options.quiet ? "never" : options.progress, [&](const Control& control) {
+    return filter(std::move(samples), settings, control);
+  });
   write_results(options, result);
   if (!options.quiet) print_notes(result.report);
   if (!options.quiet && settings.backend == "auto") fmt::print("backend {}\n", result.report.backend);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
+#include "cli/signals.h"
 #include "rpf/filter.h"
 
 namespace rpf::cli {
@@ -21,5 +23,18 @@ class ProgressBar {
   bool visible_ = false, shown_ = false;
   std::chrono::steady_clock::time_point latest_{};
 };
+
+/// Runs work(control), with a control that shows the progress and lets signals stop the work.
+template <class Work>
+auto with_progress(const std::string& mode, const Work& work) {
+  const SignalGuard guard;
+  ProgressBar bar(mode);
+  Control control;
+  control.progress = [&](const Progress& progress) {
+    bar.show(progress);
+    return received_signal() == 0;
+  };
+  return work(control);
+}
 
 }  // namespace rpf::cli

@@ -56,21 +56,11 @@ void check_usage(const Options& o) {
   check_sample_target(o.output);
 }
 
-/// Shows the progress and lets signals stop the rendering.
-template <class Render>
-auto with_progress(const Options& o, const Render& render) {
-  const SignalGuard guard;
-  ProgressBar bar(o.quiet ? "never" : o.progress);
-  Control control;
-  control.progress = [&](const Progress& progress) {
-    bar.show(progress);
-    return received_signal() == 0;
-  };
-  return render(control);
-}
+std::string progress_mode(const Options& o) { return o.quiet ? "never" : o.progress; }
 
 void write_reference_image(const Options& o, const SceneOptions& scene) {
-  const Image image = with_progress(o, [&](const Control& c) { return render_reference(o.name, scene, c); });
+  const Image image =
+      with_progress(progress_mode(o), [&](const Control& c) { return render_reference(o.name, scene, c); });
   const SignalGuard guard;  // a signal now waits until the file is whole
   write_image(o.output, image);
   if (o.quiet) return;
@@ -92,7 +82,8 @@ void check_budget(const SceneOptions& scene) {
 
 void write_sample_file(const Options& o, const SceneOptions& scene) {
   check_budget(scene);
-  const SampleBuffer samples = with_progress(o, [&](const Control& c) { return render_scene(o.name, scene, c); });
+  const SampleBuffer samples =
+      with_progress(progress_mode(o), [&](const Control& c) { return render_scene(o.name, scene, c); });
   const SignalGuard guard;
   write_samples(o.output, samples);
   if (o.quiet) return;

@@ -16,7 +16,8 @@ struct Rows {
   bool contains(const Rows& o) const { return begin <= o.begin && o.end <= end; }
 };
 
-/// What a pass reads and writes, for some rows. On a device that shares the host's memory nothing is copied.
+/// What a pass reads and writes, for some rows. On a device that shares the host's memory only `chunks` is a copy; it
+/// is made from `records` and `colors`, which nothing else reads.
 struct Band {
   int pass = 0;
   Rows rows;

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "numeric.h"
+#include "rpf_math.h"
 
 namespace rpf {
 
 ScratchSizes::ScratchSizes(const Plan& plan) {
   std::uint32_t neighbors = 1;
   for (const PassPlan& pass : plan.passes) neighbors = std::max(neighbors, pass.max_neighbors);
-  const std::uint32_t blocks = (neighbors + RPF_LANES - 1) / RPF_LANES;
+  const std::uint32_t blocks = kernel::rpf_blocks(neighbors);
   const std::size_t variables = plan.variables.count(), bins = 2 * static_cast<std::size_t>(plan.half_bins) + 1;
   capacity = blocks * RPF_LANES;
   column_floats = variables * capacity;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "rpf_math.h"
+
 namespace rpf {
 namespace {
 
@@ -14,9 +16,8 @@ std::size_t bin_count(const Plan& plan) { return 2 * static_cast<std::size_t>(pl
 struct PlaneLayout {
   std::uint32_t blocks = 0, words = 0;
 
-  explicit PlaneLayout(std::uint32_t neighbors) : blocks((neighbors + RPF_LANES - 1) / RPF_LANES) {
-    words = blocks <= 4 ? 2 : blocks <= 8 ? 4 : blocks <= 16 ? 8 : (blocks + 31) / 32 * RPF_LANES;
-  }
+  explicit PlaneLayout(std::uint32_t neighbors)
+      : blocks(kernel::rpf_blocks(neighbors)), words(kernel::rpf_plane_words(neighbors)) {}
   bool holds(const std::uint32_t* plane, std::uint32_t neighbor) const {
     const std::uint32_t block = neighbor / RPF_LANES, lane = neighbor % RPF_LANES;
     if (words >= RPF_LANES) return (plane[block / 32 * RPF_LANES + lane] >> block % 32 & 1U) != 0;
