@@ -42,11 +42,13 @@ typedef struct {
 
 static void weigh(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot, const Trace* trace,
                   Weights* out) {
+  const uint measured = min(neighbors, pass->measured);
   float information[RPF_PAIRS];
-  measure_dependencies(frame, pass, neighbors, slot, trace, information);
+  measure_dependencies(frame, pass, measured, slot, trace, information);
   const rpf_feature_weights feature = {out->feature_fraction_random, out->fraction_feature, out->beta};
   rpf_weigh_dependencies(information, RPF_RANDOM, RPF_FEATURES, pass->alpha_factor, pass->growth, &out->color, feature);
   if (!trace->values) return;
+  trace->values[trace->at.measured] = (float)measured;
   trace_floats(trace, trace->at.information, information, RPF_PAIRS);
   trace_floats(trace, trace->at.color_weights, out->color.color_fraction_random, 3);
   trace->values[trace->at.color_weights + 3] = out->color.fraction_random;
@@ -56,36 +58,92 @@ static void weigh(const Frame* frame, const rpf_pass* pass, uint neighbors, cons
   trace_floats(trace, trace->at.beta, out->beta, RPF_FEATURES);
 }
 
-RPF_CPU_FEATURES
-static rpf_pixel_statistics filter_pixel(const Frame* frame, const rpf_pass* pass, uint pixel, const Slot* slot,
-                                         const Trace* trace, __global float* out) {
+// Sections 3 and 4: the pixel's neighborhood, normalized, in the slot. Returns N.
+static uint fill_neighborhood(const Frame* frame, const rpf_pass* pass, uint pixel, const Slot* slot,
+                              const Trace* trace, uint* drawn) {
   const uint first = first_sample_of(frame, pass, pixel), own = samples_of(frame, pass, pixel);
-  rpf_pixel_statistics statistics = {0, 0, 0.0f, 0.0f, 0.0f};
-  if (own == 0) return statistics;
-
   OwnMoments moments;
   own_moments(frame, pass, first, own, &moments);
-  statistics.drawn = draw_candidates(frame, pass, pixel, own, slot);
-  const uint neighbors = gather(frame, pass, first, own, &moments, statistics.drawn, slot);
-  statistics.neighbors = neighbors;
+  const uint neighbors = gather(frame, pass, pixel, first, own, &moments, slot, drawn);
   fill_columns(frame, pass, neighbors, &moments, slot);
   normalize_columns(&moments, neighbors, slot, trace);
+  if (trace->values) trace_moments(trace, &moments);
+  return neighbors;
+}
 
-  Weights weights;
-  weigh(frame, pass, neighbors, slot, trace, &weights);
-  statistics.fraction_random = weights.color.fraction_random;
-  statistics.alpha = rpf_mean(weights.color.alpha, 3);
-  statistics.beta = rpf_mean(weights.beta, RPF_FEATURES);
-
+// Sections 6 and 7 for the pixel whose neighborhood is in the slot.
+static void filter_pixel(const rpf_pass* pass, uint own, uint neighbors, const Slot* slot, const Weights* weights,
+                         const Trace* trace, __global float* out) {
   Coordinates coordinates;
-  choose_coordinates(pass, own, &weights.color, weights.beta, &coordinates);
+  choose_coordinates(pass, own, &weights->color, weights->beta, &coordinates);
   filter_samples(own, neighbors, slot, &coordinates, trace, out);
-  if (trace->values) {
-    trace_moments(trace, &moments);
-    for (uint i = 0; i < own * RPF_CARRIED; ++i) trace->values[trace->at.filtered + i] = out[i];
-  }
+  for (uint i = 0; trace->values && i < own * RPF_CARRIED; ++i) trace->values[trace->at.filtered + i] = out[i];
   if (pass->outlier_step) replace_outliers(out, own);
-  return statistics;
+}
+
+// What a launch writes: the band's.
+typedef struct {
+  __global float* colors;                     // [sample][RPF_CARRIED]
+  __global rpf_pixel_statistics* statistics;  // [pixel]
+} Output;
+
+// Whole pixels from x, y on; positions in the frame.
+typedef struct {
+  int x, y, end_x, end_y;
+} Area;
+
+// The pixel of a block that measures for all: its first one that has samples.
+static uint leader_of(const Frame* frame, const rpf_pass* pass, Area block) {
+  for (int y = block.y; y < block.end_y; ++y)
+    for (int x = block.x; x < block.end_x; ++x) {
+      const uint pixel = (uint)(y * pass->width + x);
+      if (samples_of(frame, pass, pixel) > 0) return pixel;
+    }
+  return RPF_NO_SAMPLE;
+}
+
+static int is_inside(const rpf_pass* pass, Area area, uint pixel) {
+  const int y = (int)(pixel / (uint)pass->width), x = (int)pixel - y * pass->width;
+  return x >= area.x && x < area.end_x && y >= area.y && y < area.end_y;
+}
+
+// One pixel of a block; the block's leader also measures.
+static void filter_member(const Frame* frame, const rpf_pass* pass, uint pixel, int measures, const Slot* slot,
+                          Weights* weights, Trace* trace, const Output* output) {
+  const uint own = samples_of(frame, pass, pixel), first = first_sample_of(frame, pass, pixel);
+  rpf_pixel_statistics statistics = {0, 0, 0.0f, 0.0f, 0.0f};
+  if (own > 0) {
+    statistics.neighbors = fill_neighborhood(frame, pass, pixel, slot, trace, &statistics.drawn);
+    if (measures) weigh(frame, pass, statistics.neighbors, slot, trace, weights);
+    statistics.fraction_random = weights->color.fraction_random;
+    statistics.alpha = rpf_mean(weights->color.alpha, 3);
+    statistics.beta = rpf_mean(weights->beta, RPF_FEATURES);
+    filter_pixel(pass, own, statistics.neighbors, slot, weights, trace,
+                 output->colors + (size_t)(first - pass->first_sample) * RPF_CARRIED);
+  }
+  output->statistics[pixel - pass->first_pixel] = statistics;
+}
+
+// The pixels of a block that lie in the tile.
+RPF_CPU_FEATURES
+static void filter_block(const Frame* frame, const rpf_pass* pass, Area block, Area tile, const Slot* slot,
+                         Trace* trace, const Output* output) {
+  const uint leader = leader_of(frame, pass, block);
+  const Area wanted = {max(block.x, tile.x), max(block.y, tile.y), min(block.end_x, tile.end_x),
+                       min(block.end_y, tile.end_y)};
+  Weights weights;
+  if (leader != RPF_NO_SAMPLE && !is_inside(pass, wanted, leader)) {
+    Trace none = *trace;
+    none.values = 0;
+    uint drawn;
+    const uint neighbors = fill_neighborhood(frame, pass, leader, slot, &none, &drawn);
+    weigh(frame, pass, neighbors, slot, trace, &weights);
+  }
+  for (int y = wanted.y; y < wanted.end_y; ++y)
+    for (int x = wanted.x; x < wanted.end_x; ++x) {
+      const uint pixel = (uint)(y * pass->width + x);
+      filter_member(frame, pass, pixel, pixel == leader, slot, &weights, trace, output);
+    }
 }
 
 // Lays the records and c' of a band out as filter_tile reads them: [RPF_CHUNKS][sample], in the order of place_of().
@@ -127,14 +185,16 @@ __kernel void filter_tile(__global const uint* first_sample, __global const floa
                      planes + item * RPF_VARIABLES * RPF_BINS * words,
                      neighbor_colors + item * RPF_CARRIED * blocks,
                      blocks};
-  const uint pixels = (uint)(pass.tile_width * pass.tile_height);
-  for (uint i = (uint)item; i < pixels; i += (uint)get_global_size(0)) {
-    const uint row = i / (uint)pass.tile_width, column = i - row * (uint)pass.tile_width;
-    const uint pixel = ((uint)pass.tile_y + row) * (uint)pass.width + (uint)pass.tile_x + column;
-    const uint first = first_sample_of(&frame, &pass, pixel);
-    trace.at = rpf_lay_out_trace(RPF_RANDOM, RPF_FEATURES, RPF_CARRIED, samples_of(&frame, &pass, pixel));
-    statistics[pixel - pass.first_pixel] =
-        filter_pixel(&frame, &pass, pixel, &slot, &trace,
-                     next_colors + (size_t)(first - pass.first_sample) * RPF_CARRIED);
+  const Output output = {next_colors, statistics};
+  const Area tile = {pass.tile_x, pass.tile_y, pass.tile_x + pass.tile_width, pass.tile_y + pass.tile_height};
+  const int side = (int)pass.block, first_x = tile.x / side, first_y = tile.y / side;
+  const uint across = (uint)((tile.end_x - 1) / side - first_x + 1), down = (uint)((tile.end_y - 1) / side - first_y + 1);
+  trace.at = rpf_lay_out_trace(RPF_RANDOM, RPF_FEATURES, RPF_CARRIED,
+                               samples_of(&frame, &pass, (uint)(tile.y * pass.width + tile.x)));
+  for (uint i = (uint)item; i < across * down; i += (uint)get_global_size(0)) {
+    const uint row = i / across;
+    const int x = (first_x + (int)(i - row * across)) * side, y = (first_y + (int)row) * side;
+    const Area block = {x, y, min(x + side, pass.width), min(y + side, pass.height)};
+    filter_block(&frame, &pass, block, tile, &slot, &trace, &output);
   }
 }

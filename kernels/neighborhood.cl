@@ -103,13 +103,14 @@ static uint16 attempt_draws(const Frame* frame, const rpf_pass* pass, rpf_words1
   return choose_samples(frame, pass, as_uint16(to_y) * (uint)pass->width + as_uint16(to_x), words.y, failed);
 }
 
-// Fills slot->candidates; returns their number. RPF_LANES draws are made at once; those that fail try again.
-static uint draw_candidates(const Frame* frame, const rpf_pass* pass, uint pixel, uint own, const Slot* slot) {
+// Fills slot->candidates with draws begin .. end - 1; returns their number. RPF_LANES draws are made at once; those that
+// fail try again.
+static uint draw_candidates(const Frame* frame, const rpf_pass* pass, uint pixel, uint begin, uint end,
+                            const Slot* slot) {
   const rpf_words key = rpf_draw_key(pass->seed, pass->pass, pixel);
   const int y = (int)(pixel / (uint)pass->width), x = (int)pixel - y * pass->width;
-  const uint draws = frame->draws[own];
   uint count = 0;
-  for (uint first = 0; first < draws; first += RPF_LANES) {
+  for (uint first = begin; first < end; first += RPF_LANES) {
     const uint16 draw = first + as_uint16(RPF_LANE_NUMBERS);
     int16 failed = -1;
     uint16 sample = RPF_NO_SAMPLE;
@@ -119,7 +120,7 @@ static uint draw_candidates(const Frame* frame, const rpf_pass* pass, uint pixel
       sample = failed ? next : sample;
       failed &= failed_again;
     }
-    const int16 left_out = failed | (draw >= draws);
+    const int16 left_out = failed | (draw >= end);
     if (!any_lane(left_out)) {
       vstore16(sample, 0, slot->candidates + count);
       count += RPF_LANES;
@@ -143,15 +144,29 @@ static int is_accepted(const Frame* frame, const rpf_pass* pass, uint sample, co
   return !any_lane(rejected);
 }
 
-// Fills slot->neighbors: the own samples, then the accepted candidates in the order of the draws. Returns N.
-static uint gather(const Frame* frame, const rpf_pass* pass, uint first, uint own, const OwnMoments* moments,
-                   uint candidates, const Slot* slot) {
-  for (uint i = 0; i < own; ++i) slot->neighbors[i] = first + i;
-  uint count = own;
+// Appends the accepted candidates in their order to the `count` neighbors there are. Returns the new number.
+static uint append_accepted(const Frame* frame, const rpf_pass* pass, const OwnMoments* moments, uint candidates,
+                            const Slot* slot, uint count) {
   for (uint i = 0; i < candidates; ++i) {
     const uint candidate = slot->candidates[i];
     slot->neighbors[count] = candidate;
     count += (uint)is_accepted(frame, pass, candidate, moments);
+  }
+  return count;
+}
+
+// Fills slot->neighbors: the own samples, then the accepted candidates in the order of the draws. Returns N; `drawn`
+// becomes the number of candidates.
+static uint gather(const Frame* frame, const rpf_pass* pass, uint pixel, uint first, uint own,
+                   const OwnMoments* moments, const Slot* slot, uint* drawn) {
+  const uint draws = frame->draws[own];
+  for (uint i = 0; i < own; ++i) slot->neighbors[i] = first + i;
+  uint count = own;
+  *drawn = 0;
+  for (uint begin = 0; begin < draws && count < pass->enough; begin += RPF_DRAWN_AT_ONCE) {
+    const uint candidates = draw_candidates(frame, pass, pixel, begin, min(begin + RPF_DRAWN_AT_ONCE, draws), slot);
+    count = append_accepted(frame, pass, moments, candidates, slot, count);
+    *drawn += candidates;
   }
   return count;
 }

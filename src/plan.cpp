@@ -44,6 +44,10 @@ PassPlan plan_pass(const FrameFacts& facts, const Settings& settings, std::size_
   result.neighborhood = neighborhood_size(settings, result.box_width);
   const std::uint32_t samples = facts.max_samples_per_pixel;
   result.max_neighbors = std::max(result.neighborhood.size(samples), samples);
+  if (settings.neighbors_factor) {
+    const double enough = *settings.neighbors_factor * result.box_width * result.box_width;
+    result.enough = static_cast<std::uint32_t>(std::clamp<double>(std::floor(enough), 1, most_neighbors));
+  }
   result.offsets = offset_table(result.box_width);
   result.entropy = entropy_table(result.max_neighbors, settings.bins);
   result.nats_per_unit = static_cast<float>(ln2 / result.entropy.units_per_bit);
@@ -95,6 +99,11 @@ void validate(const Settings& s) {
   require(s.box_widths.size() <= 100, fmt::format("{} passes: at most 100 are possible", s.box_widths.size()));
   require(!s.samples_factor || (*s.samples_factor > 0 && *s.samples_factor <= 1e6),
           fmt::format("samples factor {}: a number above 0 and up to 1e6 is expected", s.samples_factor.value_or(0)));
+  require(
+      !s.neighbors_factor || (*s.neighbors_factor > 0 && *s.neighbors_factor <= 1e6),
+      fmt::format("neighbors factor {}: a number above 0 and up to 1e6 is expected", s.neighbors_factor.value_or(0)));
+  require(s.statistics_block >= 1 && s.statistics_block <= 16,
+          fmt::format("statistics block {}: a width from 1 to 16 pixels is expected", s.statistics_block));
   require(s.noise >= 1e-12F && s.noise <= 1e12F,
           fmt::format("noise {}: a number from 1e-12 to 1e12 is expected, such as 0.02", s.noise));
   require(s.bins >= 3 && s.bins <= 31 && s.bins % 2 == 1,
@@ -124,6 +133,8 @@ Plan make_plan(const FrameFacts& facts, const Settings& settings) {
   plan.entropy_slack = entropy_slack(settings.bins);
   if (settings.bias_correction)
     plan.information_bias = 0.5F * static_cast<float>((settings.bins - 1) * (settings.bins - 1));
+  plan.statistics_block = settings.statistics_block;
+  if (settings.statistics_samples > 0) plan.statistics_samples = std::min(settings.statistics_samples, most_neighbors);
   plan.alpha_factor = settings.alpha_factor;
   plan.noise = settings.noise;
   plan.outlier_step = settings.profile == Profile::paper;

@@ -14,13 +14,16 @@ std::string neighborhood_text(const Settings& s) {
   std::string text = s.samples_factor              ? fmt::format("{} b^2", *s.samples_factor)
                      : s.profile == Profile::paper ? "b^2 s / 2"
                                                    : "b^2 / 2";
-  return s.max_samples > 0 ? text + fmt::format(", at most {}", s.max_samples) : text;
+  if (s.max_samples > 0) text += fmt::format(", at most {}", s.max_samples);
+  return s.neighbors_factor ? text + fmt::format(", until {} b^2 are accepted", *s.neighbors_factor) : text;
 }
 
 std::string choices_text(const Settings& s) {
   return fmt::format(
-      "alpha-factor={} position-scale={} redraws={} reject-second-hit={} bias-correction={} clamp-negative={}",
-      s.alpha_factor, s.position_scale, s.redraws, s.reject_second_hit, s.bias_correction, s.clamp_negative);
+      "statistics-block={} statistics-samples={} alpha-factor={} position-scale={} redraws={} reject-second-hit={} "
+      "bias-correction={} clamp-negative={}",
+      s.statistics_block, s.statistics_samples, s.alpha_factor, s.position_scale, s.redraws, s.reject_second_hit,
+      s.bias_correction, s.clamp_negative);
 }
 
 }  // namespace

@@ -27,6 +27,13 @@ struct Settings {
   std::optional<double> samples_factor;
   /// Upper limit of M; 0: none.
   std::uint32_t max_samples = 0;
+  /// Drawing ends once a neighborhood has neighbors_factor * b^2 samples; M is then the most that is drawn for it. Lets
+  /// pixels that reject nearly everything draw longer than others. Above 0; nothing: M samples are drawn for all.
+  std::optional<double> neighbors_factor;
+  /// Pixels of a square of this width share the mutual information that its first pixel with samples measures. 1 .. 16.
+  int statistics_block = 1;
+  /// Neighbors that mutual information is measured on: at most so many, the first in the order of the draws. 0: all.
+  std::uint32_t statistics_samples = 0;
   /// sigma_8^2 of (T 5.10): 0.02 for very noisy scenes, 0.002 otherwise. Above 0.
   float noise = 0.02F;
   /// Histogram bins, B = 2 K + 1: odd, 3 .. 31.

@@ -64,6 +64,15 @@ void add_model_options(CLI::App& app, FilterOptions& o) {
   app.add_option("--samples-factor", o.samples_factor, "M = FACTOR * b^2 in place of the profile's")
       ->check(CLI::PositiveNumber);
   app.add_option("--max-samples", o.settings.max_samples, "Upper limit of M")->check(CLI::PositiveNumber);
+  app.add_option("--neighbors-factor", o.neighbors_factor,
+                 "Draw no further once a neighborhood has FACTOR * b^2 samples; M is what is drawn at most")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--statistics-block", o.settings.statistics_block,
+                 "Pixels of a square of this width share what mutual information says")
+      ->capture_default_str();
+  app.add_option("--statistics-samples", o.settings.statistics_samples,
+                 "Measure mutual information on so many neighbors at most")
+      ->check(CLI::PositiveNumber);
   app.add_option("--noise", o.settings.noise, "sigma_8^2: 0.02 for very noisy scenes, 0.002 otherwise")
       ->capture_default_str();
   app.add_option("--bins", o.settings.bins, "Histogram bins, odd")->capture_default_str();
@@ -154,6 +163,7 @@ Settings settings_of(const FilterOptions& o) {
   s.profile = o.profile == "paper" ? Profile::paper : Profile::thesis;
   if (!o.boxes.empty()) s.box_widths = box_widths(o.boxes);
   if (o.samples_factor > 0) s.samples_factor = o.samples_factor;
+  if (o.neighbors_factor > 0) s.neighbors_factor = o.neighbors_factor;
   if (!o.features.empty()) s.features = groups(o.features);
   if (!o.random.empty()) s.random = groups(o.random);
   if (!o.crop.empty()) s.crop = window_of("--crop", o.crop);

@@ -140,6 +140,18 @@ void add_windows(CaseList& list) {
              [&](Settings& s) { s.crop = crop; });
 }
 
+/// Blocks that share statistics, where they are cut: by empty pixels, bands, and a crop.
+void add_shared_statistics(CaseList& list) {
+  ConformanceCase c = CaseList::basic("dof", CaseList::varying);
+  c.settings.statistics_block = 3;
+  c.quick = true;
+  list.add("statistics-block/3/varying", c);
+  c.band_rows = 19;
+  list.add("statistics-block/3/band", c);
+  c.settings.crop = Window{4, 5, 11, 7};
+  list.add("statistics-block/3/crop", c);
+}
+
 void add_settings(CaseList& list) {
   for (const float noise : {1e-12F, 0.0003F, 0.002F, 0.2F, 1e6F})
     list.add(fmt::format("noise/{:g}", noise), [&](Settings& s) { s.noise = noise; });
@@ -162,6 +174,16 @@ void add_settings(CaseList& list) {
       s.features = std::vector<std::string>{};  // nothing is rejected: N is M
     });
   for (const int bins : {3, 5, 9, 31}) list.add(fmt::format("bins/{}", bins), [&](Settings& s) { s.bins = bins; });
+  for (const int block : {2, 3, 16})
+    list.add(fmt::format("statistics-block/{}", block), [&](Settings& s) { s.statistics_block = block; });
+  for (const std::uint32_t most : {1U, 20U, 64U})
+    list.add(fmt::format("statistics-samples/{}", most), [&](Settings& s) { s.statistics_samples = most; });
+  for (const double factor : {0.01, 0.3, 1.0})
+    list.add(fmt::format("neighbors-factor/{:g}", factor), [&](Settings& s) {
+      s.samples_factor = 8;
+      s.neighbors_factor = factor;
+    });
+  add_shared_statistics(list);
   list.add("reject-second-hit", [](Settings& s) { s.reject_second_hit = true; });
   list.add("bias-correction", [](Settings& s) { s.bias_correction = true; });
 }

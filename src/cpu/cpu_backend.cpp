@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "cpu/neighborhood.h"
 #include "cpu/statistics.h"
@@ -11,10 +12,9 @@
 #include "rpf_math.h"
 
 namespace rpf {
-namespace {
 
 /// Everything a thread needs for one pixel, reused for the next.
-struct Workspace {
+struct CpuBackend::Workspace {
   Neighborhood neighborhood;
   Normalization normalization;
   Dependencies dependencies;
@@ -22,9 +22,13 @@ struct Workspace {
   FilterScratch filter;
 };
 
+namespace {
+
+using Workspace = CpuBackend::Workspace;
+
 PixelStatistics summarize(const Workspace& w) {
   PixelStatistics s{};
-  s.drawn = static_cast<std::uint32_t>(w.neighborhood.candidates.size());
+  s.drawn = w.neighborhood.drawn;
   s.neighbors = w.neighborhood.size();
   s.fraction_random = w.weights.color.fraction_random;
   s.alpha = kernel::rpf_mean(w.weights.color.alpha, 3);
@@ -32,13 +36,50 @@ PixelStatistics summarize(const Workspace& w) {
   return s;
 }
 
-/// Algorithm 1 for one pixel: sections 3 to 7. `out`: [own samples][carried].
-void filter_pixel(const Frame& frame, const Plan& plan, int pass, std::uint32_t pixel, const std::vector<float>& colors,
-                  Workspace& w, float* out) {
+/// The pixels of a block, row by row.
+std::vector<std::uint32_t> pixels_of(const Frame& frame, const Window& block) {
+  std::vector<std::uint32_t> pixels;
+  for (int y = block.y; y < block.y + block.height; ++y)
+    for (int x = block.x; x < block.x + block.width; ++x)
+      pixels.push_back(static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame.width) +
+                       static_cast<std::uint32_t>(x));
+  return pixels;
+}
+
+/// The pixels around (x, y) that share statistics, cut at the frame's edge.
+Window block_at(const Frame& frame, const Plan& plan, int x, int y) {
+  const int side = plan.statistics_block, left = x / side * side, top = y / side * side;
+  return {left, top, std::min(side, frame.width - left), std::min(side, frame.height - top)};
+}
+
+/// What two windows that meet have in common.
+Window common(const Window& a, const Window& b) {
+  const int x = std::max(a.x, b.x), y = std::max(a.y, b.y);
+  return {x, y, std::min(a.x + a.width, b.x + b.width) - x, std::min(a.y + a.height, b.y + b.height) - y};
+}
+
+/// The pixel that measures for a block: its first one that has samples. Nothing where none has.
+std::optional<std::uint32_t> leader_of(const Frame& frame, const Window& block) {
+  for (const std::uint32_t pixel : pixels_of(frame, block))
+    if (frame.samples(pixel) > 0) return pixel;
+  return std::nullopt;
+}
+
+/// Sections 3 and 4.
+void fill_neighborhood(const Frame& frame, const Plan& plan, int pass, std::uint32_t pixel, Workspace& w) {
   gather(frame, plan, pass, pixel, w.neighborhood);
   normalize(w.neighborhood, w.normalization);
+}
+
+/// Section 5, for the neighborhood in the workspace.
+void measure(const Plan& plan, int pass, Workspace& w) {
   measure_dependencies(plan, pass, w.neighborhood, w.dependencies);
   compute_weights(plan, pass, w.dependencies, w.weights);
+}
+
+/// Sections 6 and 7, likewise. `out`: [own samples][carried].
+void filter_pixel(const Frame& frame, const Plan& plan, std::uint32_t pixel, const std::vector<float>& colors,
+                  Workspace& w, float* out) {
   filter_samples(plan, w.neighborhood, frame.samples(pixel), w.weights, colors, w.filter, out, nullptr);
   if (plan.outlier_step) replace_outliers(out, frame.samples(pixel), plan.carried);
 }
@@ -53,19 +94,33 @@ void CpuBackend::load(const Frame& frame, std::vector<float> colors, const Plan&
   statistics_.assign(frame.first_sample.size() - 1, {});
 }
 
+void CpuBackend::filter_block(int pass, const Window& block, const Window& wanted, Workspace& w) {
+  const std::optional<std::uint32_t> leader = leader_of(*frame_, block);
+  if (!leader) return;
+  const std::vector<std::uint32_t> pixels = pixels_of(*frame_, wanted);
+  if (std::find(pixels.begin(), pixels.end(), *leader) == pixels.end()) {
+    fill_neighborhood(*frame_, *plan_, pass, *leader, w);
+    measure(*plan_, pass, w);
+  }
+  for (const std::uint32_t pixel : pixels) {
+    if (frame_->samples(pixel) == 0) continue;
+    fill_neighborhood(*frame_, *plan_, pass, pixel, w);
+    if (pixel == *leader) measure(*plan_, pass, w);
+    filter_pixel(*frame_, *plan_, pixel, colors_, w,
+                 next_colors_.data() + frame_->first_sample[pixel] * plan_->carried);
+    statistics_[pixel] = summarize(w);
+  }
+}
+
 void CpuBackend::run(int pass, const Window& tile) {
   tbb::enumerable_thread_specific<Workspace> workspaces;
-  const auto width = static_cast<std::size_t>(tile.width);
+  const int side = plan_->statistics_block, first_x = tile.x / side, first_y = tile.y / side;
+  const int across = (tile.x + tile.width - 1) / side - first_x + 1;
+  const int down = (tile.y + tile.height - 1) / side - first_y + 1;
   arena_.execute([&] {
-    tbb::parallel_for(std::size_t{0}, tile.pixel_count(), [&](std::size_t i) {
-      const std::size_t x = static_cast<std::size_t>(tile.x) + i % width,
-                        y = static_cast<std::size_t>(tile.y) + i / width;
-      const auto pixel = static_cast<std::uint32_t>(y * static_cast<std::size_t>(frame_->width) + x);
-      if (frame_->samples(pixel) == 0) return;
-      Workspace& w = workspaces.local();
-      filter_pixel(*frame_, *plan_, pass, pixel, colors_, w,
-                   next_colors_.data() + frame_->first_sample[pixel] * plan_->carried);
-      statistics_[pixel] = summarize(w);
+    tbb::parallel_for(0, across * down, [&](int i) {
+      const Window block = block_at(*frame_, *plan_, (first_x + i % across) * side, (first_y + i / across) * side);
+      filter_block(pass, block, common(block, tile), workspaces.local());
     });
   });
 }
@@ -79,8 +134,12 @@ PixelTrace CpuBackend::trace(int pass, std::uint32_t pixel) {
   t.pixel = pixel;
   const std::uint32_t own = frame_->samples(pixel);
   if (own == 0) return t;
+  const int x = static_cast<int>(pixel) % frame_->width, y = static_cast<int>(pixel) / frame_->width;
+  fill_neighborhood(*frame_, *plan_, pass, *leader_of(*frame_, block_at(*frame_, *plan_, x, y)), w);
+  measure(*plan_, pass, w);
+  fill_neighborhood(*frame_, *plan_, pass, pixel, w);
   t.colors.resize(own * plan_->carried);
-  filter_pixel(*frame_, *plan_, pass, pixel, colors_, w, t.colors.data());
+  filter_pixel(*frame_, *plan_, pixel, colors_, w, t.colors.data());
   t.filtered.resize(t.colors.size());
   filter_samples(*plan_, w.neighborhood, own, w.weights, colors_, w.filter, t.filtered.data(), &t.weights);
   t.shift = w.neighborhood.shift;

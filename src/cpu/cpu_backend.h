@@ -26,7 +26,12 @@ class CpuBackend : public Backend {
   std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const override;
   PixelTrace trace(int pass, std::uint32_t pixel) override;
 
+  struct Workspace;
+
  private:
+  /// Filters the pixels of a block that are wanted.
+  void filter_block(int pass, const Window& block, const Window& wanted, Workspace& w);
+
   std::string reason_;
   tbb::global_control limit_;  ///< lets oneTBB have more threads than cores where the caller asks for them
   int threads_;

@@ -1,5 +1,6 @@
 #include "cpu/neighborhood.h"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -107,17 +108,18 @@ bool is_accepted(const Neighborhood& n, const float* record, std::size_t first_f
   return true;
 }
 
-/// Section 3, step 2: all candidates first, so that their records are on the way from memory when they are tested.
-void draw_candidates(const Frame& frame, const Plan& plan, int pass, std::uint32_t pixel, Neighborhood& n) {
-  const Sampler sampler(frame, plan, pass, pixel);
-  const std::uint32_t draws = plan.passes[static_cast<std::size_t>(pass)].neighborhood.draws(frame.samples(pixel));
+/// Section 3, step 2: draws begin .. end - 1 first, so that the records are on the way from memory when they are
+/// tested.
+void draw_candidates(const Frame& frame, const Plan& plan, const Sampler& sampler, std::uint32_t begin,
+                     std::uint32_t end, Neighborhood& n) {
   n.candidates.clear();
-  for (std::uint32_t number = 0; number < draws; ++number) {
+  for (std::uint32_t number = begin; number < end; ++number) {
     const std::optional<std::uint32_t> candidate = sampler.draw(number);
     if (!candidate) continue;
     n.candidates.push_back(*candidate);
     __builtin_prefetch(frame.record(*candidate) + plan.variables.features());
   }
+  n.drawn += static_cast<std::uint32_t>(n.candidates.size());
 }
 
 }  // namespace
@@ -130,10 +132,16 @@ void gather(const Frame& frame, const Plan& plan, int pass, std::uint32_t pixel,
   for (std::uint32_t i = 0; i < own; ++i) append(n, first + i, frame.record(first + i));
   set_tolerances(plan, n);
 
-  draw_candidates(frame, plan, pass, pixel, n);
-  for (const std::uint32_t candidate : n.candidates) {
-    const float* record = frame.record(candidate);
-    if (is_accepted(n, record, plan.variables.features())) append(n, candidate, record);
+  const PassPlan& p = plan.passes[static_cast<std::size_t>(pass)];
+  const Sampler sampler(frame, plan, pass, pixel);
+  const std::uint32_t draws = p.neighborhood.draws(own);
+  n.drawn = 0;
+  for (std::uint32_t begin = 0; begin < draws && n.size() < p.enough; begin += RPF_DRAWN_AT_ONCE) {
+    draw_candidates(frame, plan, sampler, begin, std::min(begin + RPF_DRAWN_AT_ONCE, draws), n);
+    for (const std::uint32_t candidate : n.candidates) {
+      const float* record = frame.record(candidate);
+      if (is_accepted(n, record, plan.variables.features())) append(n, candidate, record);
+    }
   }
 }
 

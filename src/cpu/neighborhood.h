@@ -11,7 +11,8 @@ namespace rpf {
 
 /// Scratch that a thread reuses from pixel to pixel. N neighbors, V variables, m features.
 struct Neighborhood {
-  std::vector<std::uint32_t> candidates;                  ///< samples drawn
+  std::vector<std::uint32_t> candidates;                  ///< samples drawn, the latest portion
+  std::uint32_t drawn = 0;                                ///< samples drawn in all
   std::vector<std::uint32_t> neighbors;                   ///< [N] samples; the pixel's own come first
   std::vector<float> shift;                               ///< [V] the first own sample's values, 0 where missing
   std::vector<float> rows;                                ///< [N][V] values less the shift; normalize() works in place

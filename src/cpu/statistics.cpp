@@ -52,11 +52,11 @@ std::size_t pair_count(const Variables& v) {
   return 3 * (v.count() - Variables::position) + v.feature_names.size() * position_and_random;
 }
 
-void fill_bins(const Plan& plan, const Neighborhood& n, Dependencies& out) {
+void fill_bins(const Plan& plan, const Neighborhood& n, std::uint32_t measured, Dependencies& out) {
   const std::size_t variables = plan.variables.count(), bins = 2 * static_cast<std::size_t>(plan.half_bins) + 1;
-  out.bins.resize(n.rows.size());
+  out.bins.resize(measured * variables);
   out.marginals.assign(variables * bins, 0);
-  for (std::uint32_t j = 0; j < n.size(); ++j)
+  for (std::uint32_t j = 0; j < measured; ++j)
     for (std::size_t v = 0; v < variables; ++v) {
       const int bin = kernel::rpf_bin(n.rows[j * variables + v], plan.half_bins);
       out.bins[j * variables + v] = static_cast<std::uint8_t>(bin);
@@ -64,11 +64,11 @@ void fill_bins(const Plan& plan, const Neighborhood& n, Dependencies& out) {
     }
 }
 
-/// Row by row: all pairs of one neighbor before the next.
-void fill_histograms(const Plan& plan, const Neighborhood& n, Dependencies& out) {
+/// Of the first `measured` neighbors, row by row: all pairs of one before the next.
+void fill_histograms(const Plan& plan, std::uint32_t measured, Dependencies& out) {
   const std::size_t variables = plan.variables.count(), bins = 2 * static_cast<std::size_t>(plan.half_bins) + 1;
   out.histograms.assign(pair_count(plan.variables) * bins * bins, 0);
-  for (std::uint32_t j = 0; j < n.size(); ++j) {
+  for (std::uint32_t j = 0; j < measured; ++j) {
     const std::uint8_t* row = out.bins.data() + j * variables;
     std::uint32_t* histogram = out.histograms.data();
     for_each_partner_range(plan.variables, [&](std::size_t x, std::size_t y_begin, std::size_t y_end) {
@@ -109,13 +109,14 @@ void normalize(Neighborhood& n, Normalization& out) {
 void measure_dependencies(const Plan& plan, int pass, const Neighborhood& n, Dependencies& out) {
   const PassPlan& p = plan.passes[static_cast<std::size_t>(pass)];
   const std::size_t variables = plan.variables.count(), bins = 2 * static_cast<std::size_t>(plan.half_bins) + 1;
-  fill_bins(plan, n, out);
-  fill_histograms(plan, n, out);
+  const std::uint32_t measured = std::min(n.size(), plan.statistics_samples);
+  fill_bins(plan, n, measured, out);
+  fill_histograms(plan, measured, out);
   std::vector<std::uint32_t> marginal_units(variables);
   for (std::size_t v = 0; v < variables; ++v)
     marginal_units[v] = entropy_units(p.entropy, &out.marginals[v * bins], bins);
-  const auto all = static_cast<std::uint32_t>(p.entropy.units[n.size()]);
-  const auto neighbors = static_cast<float>(n.size());
+  const auto all = static_cast<std::uint32_t>(p.entropy.units[measured]);
+  const auto neighbors = static_cast<float>(measured);
   out.information.clear();
   const std::uint32_t* histogram = out.histograms.data();
   for_each_partner_range(plan.variables, [&](std::size_t x, std::size_t y_begin, std::size_t y_end) {

@@ -50,10 +50,11 @@ std::vector<std::uint32_t> draws_by_samples(const PassPlan& pass, std::uint32_t 
   return draws;
 }
 
-/// The rows that a pass reads for a tile.
+/// The rows that a pass reads for a tile: also for pixels above it that measure for its first ones.
 Rows rows_read(const Plan& plan, int pass, const Window& tile) {
   const int reach = (plan.passes[static_cast<std::size_t>(pass)].box_width - 1) / 2;
-  return {std::max(tile.y - reach, 0), std::min(tile.y + tile.height + reach, plan.height)};
+  const int first = tile.y / plan.statistics_block * plan.statistics_block;
+  return {std::max(first - reach, 0), std::min(tile.y + tile.height + reach, plan.height)};
 }
 
 }  // namespace
@@ -136,6 +137,9 @@ kernel::rpf_pass OpenClBackend::arguments(int pass, const Window& tile, const Ba
   a.seed = plan_->seed;
   a.pass = static_cast<std::uint32_t>(pass);
   a.attempts = plan_->attempts;
+  a.enough = p.enough;
+  a.block = static_cast<std::uint32_t>(plan_->statistics_block);
+  a.measured = plan_->statistics_samples;
   a.capacity = scratch_->sizes.capacity;
   a.entropy_slack = plan_->entropy_slack;
   a.nats_per_unit = p.nats_per_unit;

@@ -92,7 +92,7 @@ PixelTrace TraceReader::read(const Scratch& scratch, std::uint32_t neighbors, st
   t.mean = part(values, at_.mean, variables);
   t.inverse_deviation = part(values, at_.inverse_deviation, variables);
   t.normalized = normalized(scratch, neighbors);
-  t.bins = bins(scratch, neighbors);
+  t.bins = bins(scratch, static_cast<std::uint32_t>(values[at_.measured]));
   t.histograms = session_.read<std::uint32_t>(
       histograms_, 0,
       kernel::rpf_pairs(random_count(plan_), feature_count(plan_)) * bin_count(plan_) * bin_count(plan_));
