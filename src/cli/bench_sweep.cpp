@@ -6,6 +6,7 @@
 #include "bench/results_file.h"
 #include "cli/bench.h"
 #include "cli/signals.h"
+#include "rpf/error.h"
 
 namespace rpf::cli {
 namespace {
@@ -29,14 +30,22 @@ class Sweep {
  private:
   void measure(const bench::SweepFrame& frame, const bench::SweepSetting& setting, int round) {
     show_status(fmt::format("round {}: {}, {}", round + 1, frame.name, setting.name));
+    try {
+      results_.add(key_of(frame, setting, round), measured_line(frame, setting, round));
+    } catch (const Error& e) {
+      throw Error(e.kind(), fmt::format("{}, {}: {}", frame.name, setting.name, e.what()));
+    }
+    ++measured_;
+  }
+
+  Json measured_line(const bench::SweepFrame& frame, const bench::SweepSetting& setting, int round) {
     make_scene_files(frame, stoppable());
     bench::FrameJob job = job_of(frame, setting);
     if (round > 0) job.reference.clear();  // the image is the same in every round
     if (warm_.insert(frame.samples + setting.options).second) bench::warm_up(job, stoppable());
     Json line{{"frame", frame.name}, {"setting", setting.name}, {"options", setting.options}, {"round", round}};
     line.update(json_of(bench::run_frame(job, stoppable())));
-    results_.add(key_of(frame, setting, round), line);
-    ++measured_;
+    return line;
   }
 
   bench::SweepPlan plan_;

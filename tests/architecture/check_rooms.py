@@ -20,7 +20,7 @@ ROOMS = {
     "src/bench": API,
     "src/cli": API | {"src/bench"},
     "examples": API,
-    "bench": API | {"src", "src/cpu"},
+    "bench": API | {"src", "src/cpu", "src/opencl", "src/bench", "kernels"},
     "tests": API | {"src", "src/cpu", "src/opencl", "src/conformance", "src/io", "src/metrics", "src/scene", "src/bench", "kernels"},
 }
 # Third-party headers, each in one room only (beside the tests).

@@ -136,7 +136,8 @@ class BenchTest(unittest.TestCase):
 
     def test_sweep_checks_all_settings_before_it_measures(self):
         self.expect(self.sweep(settings={"good": "--boxes 3", "bad": "--boxes x"}), 2, "--boxes")
-        self.assertFalse(self.results.exists())
+        self.assertFalse(self.results.exists(), "a wrong option shows before anything is made")
+        self.expect(self.sweep(settings={"no lens": "--random no-such"}), 2, "tiny, no lens: ", "no-such")
         self.expect(run("sweep", self.folder / "none.json", "-o", self.results), 3, "none.json")
 
 
