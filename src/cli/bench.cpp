@@ -94,7 +94,9 @@ Json json_of(const bench::FrameRun& run) {
   Json json{{"cpu", run.cost.cpu},
             {"wall", run.cost.wall},
             {"energy", kept_energy(run.report)},
-            {"backend", run.report.backend}};
+            {"backend", run.report.backend},
+            {"random", run.report.random},
+            {"features", run.report.features}};
   for (const PassReport& pass : run.report.passes)
     json["passes"].push_back({{"box", pass.box_width},
                               {"neighbors", pass.neighbors},

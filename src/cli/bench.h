@@ -73,7 +73,7 @@ void show_status(const std::string& text);
 /// Energy after the last pass against the plain mean's.
 double kept_energy(const Report& report);
 
-/// A run as JSON: cpu, wall, energy, backend, passes and, where measured, error.
+/// A run as JSON: cpu, wall, energy, backend, modeled channels, passes and, where measured, error.
 nlohmann::ordered_json json_of(const bench::FrameRun& run);
 nlohmann::ordered_json json_of(const bench::Summary& summary, const std::vector<double>& rounds);
 
