@@ -2,6 +2,11 @@
 //
 // One work-item filters one pixel after the other, with a scratch slot of its own and no barriers. The host starts as
 // many as the device can run at once (src/opencl/opencl_backend.cpp).
+// How many phases of a pixel run, of five. Only the benchmarks compile less than all, to know what each takes.
+#ifndef RPF_PHASES
+#define RPF_PHASES 5
+#endif
+
 #include "frame.cl"
 #include "neighborhood.cl"
 #include "statistics.cl"
@@ -65,6 +70,7 @@ static uint fill_neighborhood(const Frame* frame, const rpf_pass* pass, uint pix
   OwnMoments moments;
   own_moments(frame, pass, first, own, &moments);
   const uint neighbors = gather(frame, pass, pixel, first, own, &moments, slot, drawn);
+  if (RPF_PHASES < 3) return neighbors;
   fill_columns(frame, pass, neighbors, &moments, slot);
   normalize_columns(&moments, neighbors, slot, trace);
   if (trace->values) trace_moments(trace, &moments);
@@ -114,12 +120,13 @@ static void filter_member(const Frame* frame, const rpf_pass* pass, uint pixel, 
   rpf_pixel_statistics statistics = {0, 0, 0.0f, 0.0f, 0.0f};
   if (own > 0) {
     statistics.neighbors = fill_neighborhood(frame, pass, pixel, slot, trace, &statistics.drawn);
-    if (measures) weigh(frame, pass, statistics.neighbors, slot, trace, weights);
+    if (measures && RPF_PHASES > 3) weigh(frame, pass, statistics.neighbors, slot, trace, weights);
     statistics.fraction_random = weights->color.fraction_random;
     statistics.alpha = rpf_mean(weights->color.alpha, 3);
     statistics.beta = rpf_mean(weights->beta, RPF_FEATURES);
-    filter_pixel(pass, own, statistics.neighbors, slot, weights, trace,
-                 output->colors + (size_t)(first - pass->first_sample) * RPF_CARRIED);
+    if (RPF_PHASES > 4)
+      filter_pixel(pass, own, statistics.neighbors, slot, weights, trace,
+                   output->colors + (size_t)(first - pass->first_sample) * RPF_CARRIED);
   }
   output->statistics[pixel - pass->first_pixel] = statistics;
 }

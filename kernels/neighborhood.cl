@@ -165,7 +165,7 @@ static uint gather(const Frame* frame, const rpf_pass* pass, uint pixel, uint fi
   *drawn = 0;
   for (uint begin = 0; begin < draws && count < pass->enough; begin += RPF_DRAWN_AT_ONCE) {
     const uint candidates = draw_candidates(frame, pass, pixel, begin, min(begin + RPF_DRAWN_AT_ONCE, draws), slot);
-    count = append_accepted(frame, pass, moments, candidates, slot, count);
+    if (RPF_PHASES > 1) count = append_accepted(frame, pass, moments, candidates, slot, count);
     *drawn += candidates;
   }
   return count;

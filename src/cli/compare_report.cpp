@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/heat_map.h"
 
 namespace rpf::cli {
@@ -28,16 +26,16 @@ std::string difference_row(const ComparedImage& image) {
 }
 
 Json json_of_image(const ComparedImage& image) {
-  const ImageError& e = image.error;
-  Json json{{"image", image.file},
-            {"relMSE", e.relmse},
-            {"MSE", e.mse},
-            {"energy", e.energy},
-            {"trimmed_relMSE", e.trimmed_relmse},
-            {"MAE", e.mae},
-            {"PSNR", e.psnr},
-            {"SSIM", e.ssim},
-            {"FLIP", e.flip},
+  Json json{{"image", image.file}};
+  json.update(json_of(image.error));
+  return json;
+}
+
+}  // namespace
+
+Json json_of(const ImageError& e) {
+  Json json{{"relMSE", e.relmse},    {"MSE", e.mse},   {"energy", e.energy}, {"trimmed_relMSE", e.trimmed_relmse},
+            {"MAE", e.mae},          {"PSNR", e.psnr}, {"SSIM", e.ssim},     {"FLIP", e.flip},
             {"HDR_FLIP", e.hdr_flip}};
   for (std::size_t c = 0; c < 3; ++c) {
     const LargestDifference& d = e.largest[c];
@@ -45,8 +43,6 @@ Json json_of_image(const ComparedImage& image) {
   }
   return json;
 }
-
-}  // namespace
 
 std::string table_of(const Comparison& comparison) {
   std::string text = fmt::format("{:>12} {:>12} {:>9} {:>12} {:>12} {:>8} {:>8} {:>8} {:>8}  {}\n", "relMSE", "MSE",

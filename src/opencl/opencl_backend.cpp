@@ -62,6 +62,7 @@ Rows rows_read(const Plan& plan, int pass, const Window& tile) {
 OpenClBackend::OpenClBackend(const OpenClOptions& options)
     : session_(Session::of(find_device(options.device))),
       band_bytes_(options.band_bytes),
+      phases_(options.phases > 0 ? fmt::format(" -DRPF_PHASES={}", options.phases) : ""),
       items_(work_items(session_.device(), options.threads)) {}
 
 std::string OpenClBackend::description() const {
@@ -77,7 +78,7 @@ void OpenClBackend::load(const Frame& frame, std::vector<float> colors, const Pl
   band_.reset();
   tables_.clear();
   on_device("preparing the filter", [&] {
-    const cl::Program& program = session_.program("filter.cl", definitions(frame, plan));
+    const cl::Program& program = session_.program("filter.cl", definitions(frame, plan) + phases_);
     kernel_ = cl::Kernel(program, "filter_tile");
     layout_kernel_ = cl::Kernel(program, "lay_out_records");
     rejection_factor_ = session_.copy(padded(plan.rejection_factor));

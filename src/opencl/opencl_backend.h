@@ -8,11 +8,12 @@
 
 namespace rpf {
 
-/// How a device is used; the defaults are for users, the rest for tests.
+/// How a device is used; the defaults are for users, the rest for tests and benchmarks.
 struct OpenClOptions {
   std::string device;            ///< index or part of a name; empty: the first
   int threads = 1;               ///< compute units to keep busy, on a device that is a CPU
   std::uint64_t band_bytes = 0;  ///< most bytes of a band; 0: what the device has
+  int phases = 0;  ///< only the first phases of a pixel: draw, gather, prepare, information, weights; 0: all
 };
 
 class OpenClBackend : public Backend {
@@ -52,6 +53,7 @@ class OpenClBackend : public Backend {
 
   Session& session_;
   std::uint64_t band_bytes_;
+  std::string phases_;  ///< definition for kernels/filter.cl
   std::size_t items_;  ///< work-items that run at once
   const Frame* frame_ = nullptr;
   const Plan* plan_ = nullptr;

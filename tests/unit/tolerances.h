@@ -33,4 +33,7 @@ constexpr double flip_in_single_precision = 2e-6;
 /// HDR-FLIP of light in another unit: exposures near 10 stops are rounded to 2^-50, and FLIP has slopes below 1000.
 constexpr double exposure_rounding = 1e-11;
 
+/// Binomial probabilities through log-gamma, sums of at most ten of them, against their ten printed digits.
+constexpr double binomial = 1e-9;
+
 }  // namespace rpf::test::tolerance

@@ -1,0 +1,80 @@
+// What a device can do at best, for the benchmarks to compare with (bench/roofs.cpp). Each kernel is one kind of work in
+// explicit vectors, as the filter's kernels are written, without anything that waits.
+#include "frame.cl"
+
+#define RPF_CHAINS 8  // independent, so that an operation need not wait for the one before
+
+// A multiplication and an addition that are two roundings, as the contract wants; `fused` with one.
+__kernel void roof_multiply_add(__global float16* out, const uint rounds, const float a, const float b,
+                                const int fused) {
+  float16 x[RPF_CHAINS];
+  for (int c = 0; c < RPF_CHAINS; ++c) x[c] = (float)c;
+  if (fused)
+    for (uint i = 0; i < rounds; ++i)
+#pragma unroll
+      for (int c = 0; c < RPF_CHAINS; ++c) x[c] = fma(x[c], (float16)(a), (float16)(b));
+  else
+    for (uint i = 0; i < rounds; ++i)
+#pragma unroll
+      for (int c = 0; c < RPF_CHAINS; ++c) x[c] = x[c] * a + b;
+  float16 sum = 0.0f;
+  for (int c = 0; c < RPF_CHAINS; ++c) sum += x[c];
+  out[get_global_id(0)] = sum;
+}
+
+// RPF_CHAINS * RPF_LANES exponentials a round.
+__kernel void roof_exp(__global float16* out, const uint rounds, const float step) {
+  float16 sum[RPF_CHAINS];
+  for (int c = 0; c < RPF_CHAINS; ++c) sum[c] = 0.0f;
+  for (uint i = 0; i < rounds; ++i)
+#pragma unroll
+    for (int c = 0; c < RPF_CHAINS; ++c) sum[c] += rpf_exp(-step * (float)((i + 8 * c) & 63u) - convert_float16(RPF_LANE_NUMBERS));
+  float16 total = 0.0f;
+  for (int c = 0; c < RPF_CHAINS; ++c) total += sum[c];
+  out[get_global_id(0)] = total;
+}
+
+// The bits that a plane of `words` 64-bit words has in common with each of two others, as histograms are counted.
+RPF_CPU_FEATURES
+static ulong common_bits(__global const ulong* a, __global const ulong* b0, __global const ulong* b1, uint words) {
+  ulong count0 = 0, count1 = 0;
+  for (uint w = 0; w < words; ++w) {
+    const ulong bits = a[w];
+    count0 += popcount(bits & b0[w]);
+    count1 += popcount(bits & b1[w]);
+  }
+  return count0 + count1;
+}
+
+__kernel void roof_popcount(__global ulong* out, __global const ulong* planes, const uint words, const uint rounds) {
+  ulong count = 0;
+  for (uint i = 0; i < rounds; ++i)
+    count += common_bits(planes + (i & 7u) * words, planes + (i >> 3 & 3u) * words, planes + (4 + (i >> 5 & 3u)) * words, words);
+  out[get_global_id(0)] = count;
+}
+
+// Reads `blocks` vectors in order, `rounds` times.
+__kernel void roof_read(__global float16* out, __global const float16* values, const uint blocks, const uint rounds) {
+  float16 sum[RPF_CHAINS];
+  for (int c = 0; c < RPF_CHAINS; ++c) sum[c] = 0.0f;
+  for (uint round = 0; round < rounds; ++round)
+    for (uint i = 0; i + RPF_CHAINS <= blocks; i += RPF_CHAINS)
+#pragma unroll
+      for (int c = 0; c < RPF_CHAINS; ++c) sum[c] += values[i + c];
+  float16 total = 0.0f;
+  for (int c = 0; c < RPF_CHAINS; ++c) total += sum[c];
+  out[get_global_id(0)] = total;
+}
+
+// Reads vectors in the order of `places`: records that were drawn.
+__kernel void roof_random_read(__global float16* out, __global const float16* values, __global const uint* places,
+                               const uint count) {
+  float16 sum[RPF_CHAINS];
+  for (int c = 0; c < RPF_CHAINS; ++c) sum[c] = 0.0f;
+  for (uint i = 0; i + RPF_CHAINS <= count; i += RPF_CHAINS)
+#pragma unroll
+    for (int c = 0; c < RPF_CHAINS; ++c) sum[c] += values[places[i + c]];
+  float16 total = 0.0f;
+  for (int c = 0; c < RPF_CHAINS; ++c) total += sum[c];
+  out[get_global_id(0)] = total;
+}

@@ -1,0 +1,46 @@
+#include "bench/frame_run.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+
+namespace rpf::bench {
+namespace {
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+Cost now() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now().time_since_epoch();
+  return {seconds(usage.ru_utime) + seconds(usage.ru_stime), wall.count()};
+}
+
+}  // namespace
+
+CostClock::CostClock() : start_(now()) {}
+
+Cost CostClock::elapsed() const {
+  const Cost end = now();
+  return {end.cpu - start_.cpu, end.wall - start_.wall};
+}
+
+void warm_up(const FrameJob& job, const Control& control) {
+  Settings settings = job.settings;
+  SampleBuffer samples = read_samples(job.samples, job.read);
+  const Window frame = settings.crop.value_or(samples.data_window);
+  settings.crop = Window{frame.x + frame.width / 2, frame.y + frame.height / 2, 1, 1};
+  filter(std::move(samples), settings, control);
+}
+
+FrameRun run_frame(const FrameJob& job, const Control& control) {
+  const CostClock clock;
+  Result result = filter(read_samples(job.samples, job.read), job.settings, control);
+  FrameRun run{clock.elapsed(), std::move(result.report), {}};
+  if (!job.reference.empty()) run.error = compare_images(result.image, read_image(job.reference));
+  return run;
+}
+
+}  // namespace rpf::bench

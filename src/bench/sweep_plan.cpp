@@ -1,0 +1,110 @@
+#include "bench/sweep_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "rpf/error.h"
+#include "rpf/io.h"
+#include "rpf/scene.h"
+
+namespace rpf::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+  throw Error(ErrorKind::input, fmt::format("sweep plan \"{}\": {}", path, what));
+}
+
+std::string relative_to(const fs::path& folder, const std::string& file) {
+  return file.empty() || fs::path(file).is_absolute() ? file : (folder / file).string();
+}
+
+SweepFrame read_frame(const std::string& plan, const Json& json, const std::string& scene_folder) {
+  SweepFrame frame;
+  frame.name = json.at("name").get<std::string>();
+  frame.scene = json.value("scene", "");
+  frame.settings = json.value("settings", frame.settings);
+  if (frame.scene.empty()) {
+    const fs::path folder = fs::absolute(plan).parent_path();
+    frame.samples = relative_to(folder, json.at("samples").get<std::string>());
+    frame.reference = relative_to(folder, json.value("reference", ""));
+    return frame;
+  }
+  const std::string size = json.value("size", "240x135");
+  if (std::sscanf(size.c_str(), "%dx%d", &frame.width, &frame.height) != 2)
+    refuse(plan, fmt::format("size \"{}\" of frame \"{}\": WIDTHxHEIGHT is expected", size, frame.name));
+  frame.samples_per_pixel = json.value("spp", 4);
+  frame.reference_samples = json.value("reference_spp", 0);
+  name_scene_files(frame, scene_folder);
+  return frame;
+}
+
+SweepPlan parse(const std::string& path, const Json& json, const std::string& scene_folder) {
+  SweepPlan plan;
+  for (const Json& frame : json.at("frames")) plan.frames.push_back(read_frame(path, frame, scene_folder));
+  for (const auto& [name, options] : json.at("settings").items())
+    plan.settings.push_back({name, options.get<std::string>()});
+  plan.rounds = json.value("rounds", plan.rounds);
+  if (plan.rounds < 1) refuse(path, "rounds: a positive number is expected");
+  return plan;
+}
+
+SceneOptions scene_options(const SweepFrame& frame, int samples, SceneSampler sampler) {
+  SceneOptions options;
+  options.width = frame.width;
+  options.height = frame.height;
+  options.samples = samples;
+  options.sampler = sampler;
+  return options;
+}
+
+}  // namespace
+
+SweepPlan read_sweep_plan(const std::string& path, const std::string& scene_folder) {
+  std::ifstream file(path);
+  if (!file) throw Error(ErrorKind::input, fmt::format("sweep plan \"{}\" cannot be read", path));
+  try {
+    return parse(path, Json::parse(file), scene_folder);
+  } catch (const Json::exception& e) {
+    refuse(path, std::string("not as docs/bench.md describes it: ") + e.what());
+  }
+}
+
+void name_scene_files(SweepFrame& frame, const std::string& folder) {
+  const std::string stem = fmt::format("{}-{}x{}", frame.scene, frame.width, frame.height);
+  const auto file = [&](int samples, const char* kind) {
+    return (fs::path(folder) / fmt::format("{}-{}spp.{}.exr", stem, samples, kind)).string();
+  };
+  frame.samples = file(frame.samples_per_pixel, "samples");
+  if (frame.reference_samples > 0) frame.reference = file(frame.reference_samples, "reference");
+}
+
+void make_scene_files(const SweepFrame& frame, const Control& control) {
+  if (frame.scene.empty()) return;
+  fs::create_directories(fs::path(frame.samples).parent_path());
+  if (!fs::exists(frame.samples)) {
+    const SceneOptions options = scene_options(frame, frame.samples_per_pixel, SceneSampler::random);
+    write_samples(frame.samples, render_scene(frame.scene, options, control));
+  }
+  if (frame.reference.empty() || fs::exists(frame.reference)) return;
+  const SceneOptions options = scene_options(frame, frame.reference_samples, SceneSampler::sobol);
+  write_image(frame.reference, render_reference(frame.scene, options, control));
+}
+
+bool applies(const SweepSetting& setting, const SweepFrame& frame) {
+  return frame.settings.empty() ||
+         std::find(frame.settings.begin(), frame.settings.end(), setting.name) != frame.settings.end();
+}
+
+std::string key_of(const SweepFrame& frame, const SweepSetting& setting, int round) {
+  return fmt::format("{} | {} | {}", fs::path(frame.samples).filename().string(), setting.options, round);
+}
+
+}  // namespace rpf::bench

@@ -1,0 +1,80 @@
+// What the commands of `rpf bench` share.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bench/frame_run.h"
+#include "bench/statistics.h"
+#include "bench/sweep_plan.h"
+
+namespace rpf::cli {
+
+/// Which frames to measure, as `rpf bench frames` and `rpf bench ab` take them.
+struct BenchFrames {
+  std::vector<std::string> files, references;
+  std::string scene = "dof", size = "240x135";  ///< where no file is named
+};
+
+struct FramesOptions {
+  BenchFrames frames;
+  std::vector<std::string> sets;  ///< NAME=OPTIONS
+  int rounds = 5;
+  bool json = false;
+};
+
+struct AbOptions {
+  BenchFrames frames;
+  std::string a, b;                ///< options of the filter
+  std::string binary_a, binary_b;  ///< empty: this one
+  int rounds = 9;
+  bool json = false;
+};
+
+struct SweepOptions {
+  std::string plan, output;
+  int rounds = 0;  ///< 0: as the plan says
+};
+
+/// Each returns the exit code.
+int run_frames(const FramesOptions& options);
+int run_ab(const AbOptions& options);
+int run_sweep(const SweepOptions& options);
+
+/// A folder that is removed with what is in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+/// The frames that were named, or the scene, rendered into `folder`. Throws Error(usage).
+std::vector<bench::SweepFrame> frames_of(const BenchFrames& options, const std::string& folder);
+
+/// "NAME=OPTIONS", or only options, which are their own name then.
+bench::SweepSetting setting_of(const std::string& text);
+
+/// Reads `options` with the parser of the filter command. Throws Error(usage) that names the setting.
+bench::FrameJob job_of(const bench::SweepFrame& frame, const bench::SweepSetting& setting);
+
+/// Lets signals stop the work; shows nothing.
+Control stoppable();
+
+/// One line on a terminal's stderr that is overwritten by the next; an empty text clears it.
+void show_status(const std::string& text);
+
+/// Energy after the last pass against the plain mean's.
+double kept_energy(const Report& report);
+
+/// A run as JSON: cpu, wall, energy, backend, modeled channels, passes and, where measured, error.
+nlohmann::ordered_json json_of(const bench::FrameRun& run);
+nlohmann::ordered_json json_of(const bench::Summary& summary, const std::vector<double>& rounds);
+
+}  // namespace rpf::cli

@@ -1,0 +1,145 @@
+"""rpf bench as a user runs it. No test looks at how long anything took. Usage: bench_test.py RPF PROJECT"""
+import json
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+RPF, PROJECT = sys.argv[1], Path(sys.argv[2]).resolve()
+EXAMPLE = PROJECT / "examples" / "dof-spheres.samples.exr"
+REFERENCE = PROJECT / "examples" / "dof-spheres.reference.exr"
+QUICK = "--boxes 5,3 --crop 16x12+20+20"
+
+
+def run(*arguments):
+    return subprocess.run([RPF, "bench", *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+class BenchTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="rpf test ü "))  # a blank and UTF-8 on purpose
+        self.results = self.folder / "results.jsonl"
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def expect(self, result, code, *texts):
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        for text in texts:
+            self.assertIn(text, result.stdout + result.stderr)
+
+    def plan(self, **changes):
+        plan = {"rounds": 2, "settings": {"mean": "--boxes none", "five": "--boxes 5"},
+                "frames": [{"name": "tiny", "scene": "dof", "size": "24x16", "reference_spp": 4},
+                           {"name": "more", "scene": "dof", "size": "24x16", "spp": 8, "settings": ["mean"]}]}
+        path = self.folder / "plan.json"
+        path.write_text(json.dumps({**plan, **changes}))
+        return path
+
+    def sweep(self, **changes):
+        return run("sweep", self.plan(**changes), "-o", self.results)
+
+    def lines(self):
+        return [json.loads(line) for line in self.results.read_text().splitlines()]
+
+    # ---- frames
+
+    def test_frames_measures_every_setting_in_every_round(self):
+        whole = "--boxes 5,3"
+        result = run("frames", EXAMPLE, "--reference", REFERENCE, "--set", "mean=--boxes none", "--set", f"small={whole}",
+                     "--rounds", "3", "--json")
+        self.expect(result, 0)
+        mean, small = json.loads(result.stdout)["frames"]
+        self.assertEqual((mean["setting"], small["setting"], small["options"]), ("mean", "small", whole))
+        for series in (mean, small):
+            for cost in (series["cpu"], series["wall"]):
+                self.assertEqual(len(cost["rounds"]), 3)
+                self.assertEqual(cost["median"], sorted(cost["rounds"])[1])
+        image = self.folder / "small.exr"
+        subprocess.run([RPF, EXAMPLE, "-o", image, "-q", *whole.split()], check=True)
+        compared = subprocess.run([RPF, "compare", "--json", image, REFERENCE], check=True, capture_output=True, text=True)
+        self.assertEqual(small["error"]["FLIP"], json.loads(compared.stdout)["images"][0]["FLIP"])
+        self.assertEqual([p["box"] for p in small["passes"]], [5, 3])
+        self.assertTrue(0 < small["acceptance"] <= 1)
+
+    def test_frames_prints_a_table(self):
+        self.expect(run("frames", EXAMPLE, "--set", QUICK, "--rounds", "1"), 0, "CPU seconds", QUICK, EXAMPLE.name)
+
+    def test_frames_renders_a_scene_where_no_file_is_named(self):
+        self.expect(run("frames", "--size", "24x16", "--rounds", "1", "--set", "x=--boxes 3"), 0, "dof 24x16")
+
+    def test_wrong_settings_are_named(self):
+        self.expect(run("frames", EXAMPLE, "--set", "wrong=--boxen 5"), 2, "wrong", "--boxen")
+        self.expect(run("frames", EXAMPLE, "--set", "even=--boxes 4"), 2, "box width 4")
+        self.expect(run("frames", EXAMPLE, "--set", "out=-o x.exr"), 2, "out", "files")
+        self.expect(run("frames", EXAMPLE, EXAMPLE, "--reference", REFERENCE), 2, "2 files and 1 references")
+
+    # ---- ab
+
+    def test_ab_needs_six_rounds_for_a_verdict(self):
+        few = run("ab", EXAMPLE, "--a", QUICK, "--b", QUICK, "--rounds", "5")
+        self.expect(few, 0, "no verdict: at least 6 rounds")
+
+    def test_ab_finds_a_large_difference_between_settings(self):
+        result = run("ab", EXAMPLE, "--a", "--boxes none", "--b", "--boxes 15 --crop 40x40+20+20", "--rounds", "6", "--json")
+        self.expect(result, 0)
+        cpu = json.loads(result.stdout)["frames"][0]["cpu"]
+        self.assertEqual(cpu["verdict"], "B takes more")
+        self.assertGreater(cpu["low"], 1)
+
+    def test_ab_measures_binaries(self):
+        result = run("ab", EXAMPLE, "--a", QUICK, "--b", QUICK, "--binary-b", RPF, "--rounds", "2", "--json")
+        self.expect(result, 0)
+        self.assertEqual(len(json.loads(result.stdout)["frames"][0]["wall"]["b"]["rounds"]), 2)
+        self.expect(run("ab", EXAMPLE, "--binary-b", self.folder / "none"), 2, "cannot be started")
+        self.expect(run("ab", "missing.exr", "--binary-b", RPF), 3, "missing.exr")
+
+    # ---- sweep
+
+    def test_sweep_measures_the_plan(self):
+        self.expect(self.sweep(), 0, "6 measured, 0 were there")
+        lines = self.lines()
+        self.assertEqual([(l["round"], l["frame"], l["setting"]) for l in lines],
+                         [(r, *pair) for r in (0, 1) for pair in (("tiny", "mean"), ("tiny", "five"), ("more", "mean"))])
+        self.assertGreater(lines[0]["error"]["relMSE"], 0)
+        self.assertNotIn("error", lines[3], "the image is the same in every round")
+
+    def test_sweep_goes_on_where_it_was_stopped(self):
+        self.expect(self.sweep(), 0)
+        whole = self.results.read_bytes()
+        lines = whole.splitlines(keepends=True)
+        self.results.write_bytes(lines[0] + lines[1] + lines[2][:-9])  # killed while it wrote the third line
+        self.expect(self.sweep(), 0, "4 measured, 2 were there")
+        self.assertEqual(self.results.read_bytes().splitlines(keepends=True)[:2], lines[:2])
+        self.assertEqual({l["key"] for l in self.lines()}, {json.loads(l)["key"] for l in lines})
+        self.expect(self.sweep(), 0, "0 measured, 6 were there")
+
+    def test_sweep_measures_what_is_new_in_a_plan(self):
+        self.expect(self.sweep(), 0)
+        settings = {"renamed": "--boxes none", "five": "--boxes 5", "three": "--boxes 3"}
+        self.expect(self.sweep(settings=settings), 0, "2 measured")
+        self.assertEqual({l["setting"] for l in self.lines()[6:]}, {"three"})
+
+    def test_sweep_stops_on_a_signal_and_loses_nothing(self):
+        plan = self.plan(rounds=1000)
+        process = subprocess.Popen([RPF, "bench", "sweep", plan, "-o", self.results], stderr=subprocess.PIPE)
+        while not self.results.exists() or self.results.read_bytes().count(b"\n") < 3:
+            time.sleep(0.01)
+        process.send_signal(signal.SIGTERM)
+        process.communicate()
+        self.assertEqual(process.returncode, 143)
+        self.assertGreaterEqual(len(self.lines()), 3)  # every line is whole
+
+    def test_sweep_checks_all_settings_before_it_measures(self):
+        self.expect(self.sweep(settings={"good": "--boxes 3", "bad": "--boxes x"}), 2, "--boxes")
+        self.assertFalse(self.results.exists(), "a wrong option shows before anything is made")
+        self.expect(self.sweep(settings={"no lens": "--random no-such"}), 2, "tiny, no lens: ", "no-such")
+        self.expect(run("sweep", self.folder / "none.json", "-o", self.results), 3, "none.json")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
