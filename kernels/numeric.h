@@ -7,7 +7,9 @@
 //     Logarithms and Gaussians are tables that the host builds (src/tables.h).
 //  3. No contraction: a * b + c is two roundings. The pragma below and -ffp-contract=off see to it, a test proves it.
 //  4. A sum over samples has one shape: RPF_LANES interleaved partial sums, combined by the tree in rpf_lanes_total.
-//     A 16-wide vector register and a scalar loop give the same bits.
+//     A 16-wide vector register and a scalar loop give the same bits. Weighted sums are taken in stretches of
+//     RPF_STRETCH elements a lane, which are added to a total: thousands of equal weights would all be rounded the same
+//     way, and the error would grow with their number.
 #ifndef RPF_NUMERIC_H
 #define RPF_NUMERIC_H
 // NOLINTBEGIN(modernize-*, bugprone-macro-parentheses): this is OpenCL C too
@@ -34,6 +36,7 @@ inline uint mul_hi(uint a, uint b) { return static_cast<uint>((std::uint64_t{a} 
 #endif
 
 #define RPF_LANES 16
+#define RPF_STRETCH 32
 
 // ---- formulas for one value, and for RPF_LANES values at once -------------------------------------------------------
 

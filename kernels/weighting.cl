@@ -75,34 +75,62 @@ static void trace_weights(const Trace* trace, uint sample, uint neighbors, uint 
   for (uint l = 0; l < RPF_LANES && block * RPF_LANES + l < neighbors; ++l) to[l] = lane[l];
 }
 
+// The weighted sums of RPF_BATCH own samples.
+typedef struct {
+  float16 weight[RPF_BATCH], color[RPF_BATCH][RPF_CARRIED];
+} Sums;
+
+static void clear_sums(Sums* sums) {
+#pragma unroll
+  for (int i = 0; i < RPF_BATCH; ++i) {
+    sums->weight[i] = 0.0f;
+    for (int c = 0; c < RPF_CARRIED; ++c) sums->color[i][c] = 0.0f;
+  }
+}
+
+// Adds the blocks [first, last), one stretch, to the sums of the own samples from `begin`.
+static void add_stretch(const Slot* slot, const Coordinates* coordinates, float (*own_value)[3 + RPF_FEATURES],
+                        uint begin, uint own, uint neighbors, uint first, uint last, const Trace* trace, Sums* sums) {
+  Sums stretch;
+  float16 weight[RPF_BATCH];
+  clear_sums(&stretch);
+  for (uint block = first; block < last; ++block) {
+    block_weights(slot, coordinates, own_value, block, neighbors, weight);
+#pragma unroll
+    for (int i = 0; i < RPF_BATCH; ++i) {
+      stretch.weight[i] += weight[i];
+      for (int c = 0; c < RPF_CARRIED; ++c) stretch.color[i][c] += weight[i] * slot->colors[c * slot->blocks + block];
+      if (begin + i < own) trace_weights(trace, begin + i, neighbors, block, weight[i]);
+    }
+  }
+#pragma unroll
+  for (int i = 0; i < RPF_BATCH; ++i) {
+    sums->weight[i] += stretch.weight[i];
+    for (int c = 0; c < RPF_CARRIED; ++c) sums->color[i][c] += stretch.color[i][c];
+  }
+}
+
 // Filters RPF_BATCH own samples from `begin`: out[own][RPF_CARRIED]. Behind the last own sample it repeats that one.
 static void filter_batch(const Slot* slot, const Coordinates* coordinates, uint begin, uint own, uint neighbors,
                          const float2* range, const Trace* trace, __global float* out) {
   const uint blocks = rpf_blocks(neighbors);
   float own_value[RPF_BATCH][3 + RPF_FEATURES];
-  float16 weight_sum[RPF_BATCH], color_sum[RPF_BATCH][RPF_CARRIED], weight[RPF_BATCH];
+  Sums sums;
   for (uint i = 0; i < RPF_BATCH; ++i) {
     const uint sample = min(begin + i, own - 1);
     for (uint a = 0; a < coordinates->count; ++a) {
       __global const float* column = (__global const float*)(slot->columns + coordinates->column[a] * slot->blocks);
       own_value[i][a] = column[sample] * coordinates->scale[a];
     }
-    weight_sum[i] = 0.0f;
-    for (int c = 0; c < RPF_CARRIED; ++c) color_sum[i][c] = 0.0f;
   }
-  for (uint block = 0; block < blocks; ++block) {
-    block_weights(slot, coordinates, own_value, block, neighbors, weight);
-#pragma unroll
-    for (int i = 0; i < RPF_BATCH; ++i) {
-      weight_sum[i] += weight[i];
-      for (int c = 0; c < RPF_CARRIED; ++c) color_sum[i][c] += weight[i] * slot->colors[c * slot->blocks + block];
-      if (begin + i < own) trace_weights(trace, begin + i, neighbors, block, weight[i]);
-    }
-  }
+  clear_sums(&sums);
+  for (uint block = 0; block < blocks; block += RPF_STRETCH)
+    add_stretch(slot, coordinates, own_value, begin, own, neighbors, block, min(block + RPF_STRETCH, blocks), trace,
+                &sums);
   for (uint i = 0; i < RPF_BATCH && begin + i < own; ++i)
     for (int c = 0; c < RPF_CARRIED; ++c)
       out[(begin + i) * RPF_CARRIED + c] =
-          rpf_filtered(lanes_total(color_sum[i][c]), lanes_total(weight_sum[i]), range[c].x, range[c].y);
+          rpf_filtered(lanes_total(sums.color[i][c]), lanes_total(sums.weight[i]), range[c].x, range[c].y);
 }
 
 static void filter_samples(uint own, uint neighbors, const Slot* slot, const Coordinates* coordinates,

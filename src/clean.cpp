@@ -13,8 +13,8 @@ namespace {
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
 /// Larger feature values count as missing: their squares would not survive a sum, and renderers write such values for
-/// "no hit".
-constexpr float largest_feature = 1e15F;
+/// "no hit". Nor would sums of larger weights or alphas.
+constexpr float largest_value = 1e15F;
 
 std::vector<std::size_t> all_of(const SampleLayout& layout, std::initializer_list<const char*> slots) {
   std::vector<std::size_t> columns;
@@ -34,14 +34,19 @@ struct Tally {
 };
 
 struct Findings {
-  Tally left_out, negative;
+  Tally not_finite, no_weight, negative, alpha, empty;
   std::vector<Tally> missing;  ///< [column]
 };
 
-bool is_usable(const float* record, const Columns& columns) {
-  for (const std::size_t c : columns.color)
-    if (!std::isfinite(record[c])) return false;
-  return !columns.weight || (std::isfinite(record[*columns.weight]) && record[*columns.weight] >= 0);
+bool is_usable(const float* record, const Columns& columns, Findings& findings, std::size_t pixel) {
+  const auto is_finite = [&](std::size_t c) { return std::isfinite(record[c]); };
+  if (!std::all_of(std::begin(columns.color), std::end(columns.color), is_finite)) {
+    findings.not_finite.add(pixel);
+    return false;
+  }
+  if (!columns.weight || (record[*columns.weight] >= 0 && record[*columns.weight] <= largest_value)) return true;
+  findings.no_weight.add(pixel);
+  return false;
 }
 
 void clean_record(float* record, const Columns& columns, bool clamp_negative, Findings& findings, std::size_t pixel) {
@@ -50,15 +55,18 @@ void clean_record(float* record, const Columns& columns, bool clamp_negative, Fi
     findings.negative.add(pixel);
     if (clamp_negative) record[c] = 0;
   }
-  if (columns.alpha && !std::isfinite(record[*columns.alpha])) record[*columns.alpha] = 0;
+  if (columns.alpha && !(std::fabs(record[*columns.alpha]) <= largest_value)) {
+    findings.alpha.add(pixel);
+    record[*columns.alpha] = 0;
+  }
   const auto mark_missing = [&](std::size_t c) {
     findings.missing[c].add(pixel);
     record[c] = missing;
   };
   for (const std::size_t c : columns.film)
-    if (!std::isfinite(record[c])) mark_missing(c);
+    if (!(std::fabs(record[c]) <= largest_value)) mark_missing(c);
   for (const std::size_t c : columns.variables)
-    if (!(std::fabs(record[c]) <= largest_feature)) mark_missing(c);
+    if (!(std::fabs(record[c]) <= largest_value)) mark_missing(c);
 }
 
 std::vector<InputNote> notes_of(const Findings& findings, const SampleBuffer& samples, bool clamp_negative) {
@@ -69,8 +77,11 @@ std::vector<InputNote> notes_of(const Findings& findings, const SampleBuffer& sa
     notes.push_back({what, tally.count, samples.data_window.x + static_cast<int>(tally.first_pixel % width),
                      samples.data_window.y + static_cast<int>(tally.first_pixel / width)});
   };
-  tell(findings.left_out, "samples left out: R, G or B not finite, or weight not a number from 0 up");
+  tell(findings.not_finite, "samples left out: R, G or B not finite");
+  tell(findings.no_weight, "samples left out: weight not a number from 0 to 1e15");
+  tell(findings.empty, "pixels without samples, black");
   tell(findings.negative, clamp_negative ? "negative radiance values, set to 0" : "negative radiance values, kept");
+  tell(findings.alpha, "values of alpha not finite or beyond 1e15, set to 0");
   for (std::size_t c = 0; c < findings.missing.size(); ++c)
     tell(findings.missing[c], fmt::format("missing values of {}", samples.layout.slots[c]));
   return notes;
@@ -104,14 +115,12 @@ std::vector<InputNote> clean(SampleBuffer& samples, const Columns& columns, bool
     const std::uint32_t begin = std::exchange(samples.first_sample[pixel], kept);
     for (std::uint32_t sample = begin; sample < samples.first_sample[pixel + 1]; ++sample) {
       float* record = samples.record(sample);
-      if (!is_usable(record, columns)) {
-        findings.left_out.add(pixel);
-        continue;
-      }
+      if (!is_usable(record, columns, findings, pixel)) continue;
       clean_record(record, columns, clamp_negative, findings, pixel);
       if (sample != kept) std::copy(record, record + stride, samples.record(kept));
       ++kept;
     }
+    if (samples.first_sample[pixel] == kept) findings.empty.add(pixel);
   }
   samples.first_sample.back() = kept;
   samples.values.resize(kept * stride);

@@ -22,6 +22,7 @@ constexpr int brightest_exponent = 40;
 struct Source {
   enum Kind { color, plain, fraction } kind = plain;
   std::size_t column = 0;
+  float origin = 0;  ///< subtracted from a plain value
 };
 
 /// The power of two that brings the brightest value to [2^40, 2^41); 1 for a black frame.
@@ -61,7 +62,7 @@ float position_diagonal(const SampleBuffer& samples, const Columns& columns) {
 float value_of(const float* record, const Source& source, float scale) {
   const float value = record[source.column];
   if (source.kind == Source::color) return value * scale;
-  return source.kind == Source::fraction ? value - std::floor(value) : value;
+  return source.kind == Source::fraction ? value - std::floor(value) : value - source.origin;
 }
 
 bool is_constant(const SampleBuffer& samples, const Source& source) {
@@ -75,9 +76,9 @@ bool is_constant(const SampleBuffer& samples, const Source& source) {
 }
 
 Source source_of(const SampleLayout& layout, const std::string& slot) {
-  if (slot == "pixel.X") return {Source::fraction, *layout.find("film.X")};
-  if (slot == "pixel.Y") return {Source::fraction, *layout.find("film.Y")};
-  return {Source::plain, *layout.find(slot)};
+  if (slot == "pixel.X") return {Source::fraction, *layout.find("film.X"), 0};
+  if (slot == "pixel.Y") return {Source::fraction, *layout.find("film.Y"), 0};
+  return {Source::plain, *layout.find(slot), 0};
 }
 
 /// "lens.U" of "random.lens.U".
@@ -101,14 +102,14 @@ std::vector<Source> carried_sources(const SampleLayout& layout, const Columns& c
                                     std::vector<std::string>& names) {
   std::vector<Source> sources;
   names = {"R", "G", "B"};
-  for (const std::size_t c : columns.color) sources.push_back({Source::color, c});
+  for (const std::size_t c : columns.color) sources.push_back({Source::color, c, 0});
   if (columns.alpha) {
-    sources.push_back({Source::plain, *columns.alpha});
+    sources.push_back({Source::plain, *columns.alpha, 0});
     names.emplace_back("A");
   }
   for (std::size_t c = 0; settings.filter_features && c < layout.size(); ++c) {
     if (!is_feature_slot(layout.slots[c])) continue;
-    sources.push_back({Source::plain, c});
+    sources.push_back({Source::plain, c, 0});
     names.push_back(short_name(layout.slots[c]));
   }
   return sources;
@@ -179,8 +180,11 @@ PreparedFrame prepare(SampleBuffer samples, const Settings& settings) {
   result.facts.position_diagonal = position_diagonal(samples, columns);
 
   std::vector<Source> variables;
-  for (const std::size_t c : columns.color) variables.push_back({Source::color, c});
-  for (const std::size_t c : columns.film) variables.push_back({Source::plain, c});
+  for (const std::size_t c : columns.color) variables.push_back({Source::color, c, 0});
+  // Relative to the data window, which is exact: where the window lies must not matter, but section 4 compares spreads
+  // with magnitudes.
+  variables.push_back({Source::plain, columns.film[0], static_cast<float>(samples.data_window.x)});
+  variables.push_back({Source::plain, columns.film[1], static_cast<float>(samples.data_window.y)});
   keep_varying(samples, selection.random, variables, result.facts.variables.random_names, result.dropped);
   keep_varying(samples, selection.features, variables, result.facts.variables.feature_names, result.dropped);
   const auto carried = carried_sources(samples.layout, columns, settings, result.carried_names);

@@ -40,11 +40,12 @@ struct PassReport {
   double seconds = 0;          ///< wall time
 };
 
-/// A channel that was not modeled because it does not vary, or a count of samples that were treated specially.
+/// What was found in the input and how it was treated: samples left out, values missing, clamped or negative, empty
+/// pixels. Also in the attribute rpf:notes of the image.
 struct InputNote {
   std::string what;  ///< for example "samples left out: R, G or B not finite"
   std::uint64_t count = 0;
-  int x = 0, y = 0;  ///< pixel of the first one, data-window coordinates
+  int x = 0, y = 0;  ///< pixel of the first one, in the coordinates of the data window
 };
 
 struct Report {

@@ -60,7 +60,7 @@ void block_weights(const FilterScratch& scratch, std::uint32_t i, std::uint32_t 
   for (std::uint32_t l = neighbors - begin; l < RPF_LANES; ++l) weight[l] = 0.0F;
 }
 
-/// Weighted sums over the neighborhood for one own sample.
+/// Weighted sums over the neighborhood, or a stretch of it, for one own sample.
 struct WeightedSums {
   kernel::rpf_lanes weight;
   std::vector<kernel::rpf_lanes> colors;  ///< [carried]
@@ -68,6 +68,11 @@ struct WeightedSums {
   void clear(std::size_t carried) {
     kernel::rpf_lanes_clear(&weight);
     colors.assign(carried, weight);
+  }
+  void add(const WeightedSums& stretch) {
+    for (int l = 0; l < RPF_LANES; ++l) weight.lane[l] += stretch.weight.lane[l];
+    for (std::size_t c = 0; c < colors.size(); ++c)
+      for (int l = 0; l < RPF_LANES; ++l) colors[c].lane[l] += stretch.colors[c].lane[l];
   }
   void add(const float* block, const FilterScratch& scratch, std::uint32_t begin) {
     for (int l = 0; l < RPF_LANES; ++l) weight.lane[l] += block[l];
@@ -109,15 +114,18 @@ void filter_samples(const Plan& plan, const Neighborhood& n, std::uint32_t own, 
   scratch.padded = (n.size() + RPF_LANES - 1) / RPF_LANES * RPF_LANES;
   set_coordinates(plan, n, kernel::rpf_sharpness(weights.color.fraction_random, plan.noise, own), weights, scratch);
   collect_colors(plan, n, colors, scratch);
-  WeightedSums sums;
+  WeightedSums sums, stretch;
   float block[RPF_LANES];
   for (std::uint32_t i = 0; i < own; ++i) {
     sums.clear(plan.carried);
     for (std::uint32_t begin = 0; begin < n.size(); begin += RPF_LANES) {
+      if (begin % (RPF_STRETCH * RPF_LANES) == 0) stretch.clear(plan.carried);
       block_weights(scratch, i, begin, n.size(), block);
-      sums.add(block, scratch, begin);
+      stretch.add(block, scratch, begin);
       if (weights_out)
         weights_out->insert(weights_out->end(), block, block + std::min<std::uint32_t>(RPF_LANES, n.size() - begin));
+      const std::uint32_t next = begin + RPF_LANES;
+      if (next % (RPF_STRETCH * RPF_LANES) == 0 || next >= n.size()) sums.add(stretch);
     }
     const float total = kernel::rpf_lanes_total(&sums.weight);
     for (std::size_t c = 0; c < plan.carried; ++c)

@@ -45,7 +45,7 @@ MUTANTS = [
            "Contraction.IsOffWhereTheKernelsAreCompiled", "a * b + c in one rounding"),
 
     # ---------------------------------------------------------------- 1. input
-    Mutant("nan_sample_kept", CLEAN, "if (!std::isfinite(record[c])) return false;", "if (std::isinf(record[c])) return false;",
+    Mutant("nan_sample_kept", CLEAN, "return std::isfinite(record[c]); };", "return !std::isinf(record[c]); };",
            BOTH + "LeavesOutSamplesThatAreNotFinite/*", "input: a NaN color is used"),
     Mutant("constant_channel_kept", PREPARE, "const bool constant = is_constant(samples, source);", "const bool constant = false;",
            "oracle spp1_paper variables", "input: constant channels are modeled"),

@@ -138,6 +138,22 @@ def move_world(channels, rng, counts):
         channels["feature.P." + axis] = channels["feature.P." + axis] + 4096.0
 
 
+def scaled_radiance(factor):
+    """All radiance times the factor."""
+    def change(channels, rng, counts):
+        for name in "RGB":
+            channels[name] = channels[name] * factor
+    return change
+
+
+def far_world(size):
+    """A world `size` times as large, 1e7 away, where float counts in ones."""
+    def change(channels, rng, counts):
+        for axis in "XYZ":
+            channels["feature.P." + axis] = channels["feature.P." + axis] * size + 1e7
+    return change
+
+
 def still_scene(channels, rng, counts):
     """No motion, and one flat normal component: what is constant must be dropped."""
     channels["random.time"] = np.full(len(channels["R"]), 0.5)
@@ -169,6 +185,10 @@ CASES = {
     "sample_weight": lambda: simple(30, change=weigh_samples, features=["N", "P"]),
     "hdr_radiance": lambda: simple(31, profile="paper", change=add_fireflies),
     "world_offset": lambda: simple(32, change=move_world),
+    "radiance_1e-30": lambda: simple(35, 9, 7, profile="paper", change=scaled_radiance(1e-30)),
+    "radiance_1e30": lambda: simple(35, 9, 7, profile="paper", change=scaled_radiance(1e30)),
+    "far_world": lambda: simple(36, 9, 7, change=far_world(1e5)),       # spreads are far above 1e-6 of the magnitude
+    "far_small_world": lambda: simple(36, 9, 7, change=far_world(100)),  # many are below, and count as none
     "one_pixel": lambda: simple(33, 1, 1, spp=5, profile="paper", boxes=[5, 3]),
     "one_row": lambda: simple(34, 13, 1, profile="paper", random=["lens", "light"]),
 }

@@ -1,6 +1,8 @@
 // rpf_trace CASE.json TRACE.json: filters a small frame and writes every intermediate value of every pixel and pass,
-// for the oracle (compare.py) to check. Colors are written in the case's own units, positions and features unshifted.
+// for the oracle (compare.py) to check; by the backend RPF_TEST_BACKEND, or the reference. Colors are written in the
+// case's own units, positions and features unshifted.
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>  // test data between C++ and Python
@@ -26,6 +28,7 @@ std::optional<T> optional(const json& settings, const char* key) {
 
 rpf::Settings read_settings(const json& s) {
   rpf::Settings settings;
+  if (const char* backend = std::getenv("RPF_TEST_BACKEND")) settings.backend = backend;
   settings.profile = s.at("profile") == "paper" ? rpf::Profile::paper : rpf::Profile::thesis;
   settings.box_widths = s.at("boxes").get<std::vector<int>>();
   settings.noise = s.at("noise");
