@@ -13,8 +13,8 @@ namespace {
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
 /// Larger feature values count as missing: their squares would not survive a sum, and renderers write such values for
-/// "no hit".
-constexpr float largest_feature = 1e15F;
+/// "no hit". Nor would sums of larger weights or alphas.
+constexpr float largest_value = 1e15F;
 
 std::vector<std::size_t> all_of(const SampleLayout& layout, std::initializer_list<const char*> slots) {
   std::vector<std::size_t> columns;
@@ -41,7 +41,7 @@ struct Findings {
 bool is_usable(const float* record, const Columns& columns) {
   for (const std::size_t c : columns.color)
     if (!std::isfinite(record[c])) return false;
-  return !columns.weight || (std::isfinite(record[*columns.weight]) && record[*columns.weight] >= 0);
+  return !columns.weight || (record[*columns.weight] >= 0 && record[*columns.weight] <= largest_value);
 }
 
 void clean_record(float* record, const Columns& columns, bool clamp_negative, Findings& findings, std::size_t pixel) {
@@ -50,7 +50,7 @@ void clean_record(float* record, const Columns& columns, bool clamp_negative, Fi
     findings.negative.add(pixel);
     if (clamp_negative) record[c] = 0;
   }
-  if (columns.alpha && !std::isfinite(record[*columns.alpha])) record[*columns.alpha] = 0;
+  if (columns.alpha && !(std::fabs(record[*columns.alpha]) <= largest_value)) record[*columns.alpha] = 0;
   const auto mark_missing = [&](std::size_t c) {
     findings.missing[c].add(pixel);
     record[c] = missing;
@@ -58,7 +58,7 @@ void clean_record(float* record, const Columns& columns, bool clamp_negative, Fi
   for (const std::size_t c : columns.film)
     if (!std::isfinite(record[c])) mark_missing(c);
   for (const std::size_t c : columns.variables)
-    if (!(std::fabs(record[c]) <= largest_feature)) mark_missing(c);
+    if (!(std::fabs(record[c]) <= largest_value)) mark_missing(c);
 }
 
 std::vector<InputNote> notes_of(const Findings& findings, const SampleBuffer& samples, bool clamp_negative) {
@@ -69,7 +69,7 @@ std::vector<InputNote> notes_of(const Findings& findings, const SampleBuffer& sa
     notes.push_back({what, tally.count, samples.data_window.x + static_cast<int>(tally.first_pixel % width),
                      samples.data_window.y + static_cast<int>(tally.first_pixel / width)});
   };
-  tell(findings.left_out, "samples left out: R, G or B not finite, or weight not a number from 0 up");
+  tell(findings.left_out, "samples left out: R, G or B not finite, or weight not a number from 0 to 1e15");
   tell(findings.negative, clamp_negative ? "negative radiance values, set to 0" : "negative radiance values, kept");
   for (std::size_t c = 0; c < findings.missing.size(); ++c)
     tell(findings.missing[c], fmt::format("missing values of {}", samples.layout.slots[c]));
