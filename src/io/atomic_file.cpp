@@ -2,12 +2,15 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <regex>
 
 #include "io/checked_writer.h"
 #include "rpf/error.h"
@@ -54,18 +57,48 @@ void sync_folder(const std::string& target, const std::string& folder) {
   if (result != 0 && error != EINVAL && error != ENOTSUP) fail_writing(target, error);
 }
 
+// Who writes a temporary file holds a lock on it, which ends with the process: a temporary file that can be locked was
+// left by one that was killed. A file system without locks is none to clean up in.
+bool lock(int descriptor, int how) { return ::flock(descriptor, LOCK_EX | how) == 0; }
+
+// Whether `path` still names the open file: between its creation and its lock another process may have cleaned up.
+bool is_in_place(int descriptor, const std::string& path) {
+  struct stat open {
+  }, named{};
+  return ::fstat(descriptor, &open) == 0 && ::stat(path.c_str(), &named) == 0 && open.st_ino == named.st_ino &&
+         open.st_dev == named.st_dev;
+}
+
+void remove_if_left(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (descriptor < 0) return;
+  if (lock(descriptor, LOCK_NB)) ::unlink(path.c_str());
+  ::close(descriptor);
+}
+
+void remove_what_was_left(const fs::path& folder) {
+  static const std::regex temporary(R"(\.rpf-[0-9]+-[0-9]+(\.[^.]*)?)");
+  std::error_code failed;
+  for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
+    const std::string name = entry->path().filename().string();
+    if (name[0] == '.' && std::regex_match(name, temporary)) remove_if_left(entry->path().string());
+  }
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(const std::string& target) : target_(target), place_(behind_links(target)) {
   check_existing(target_, place_);
   const fs::path folder = folder_of(place_);
+  remove_what_was_left(folder);
   const std::string extension = fs::path(place_).extension().string();
   do {
+    close();
     const std::string name = fmt::format(".rpf-{}-{}{}", ::getpid(), next_number++, extension);
     temporary_ = (folder / name).string();
     descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  } while (descriptor_ < 0 && errno == EEXIST);  // left by a killed process of the same number
-  if (descriptor_ < 0) fail_writing(target_, errno);
+    if (descriptor_ < 0 && errno != EEXIST) fail_writing(target_, errno);
+  } while (descriptor_ < 0 || (lock(descriptor_, 0) && !is_in_place(descriptor_, temporary_)));
 }
 
 AtomicFile::~AtomicFile() {
@@ -81,9 +114,10 @@ void AtomicFile::close() {
 void AtomicFile::commit() {
   // Without it a power cut could leave the new name with an empty file.
   if (::fsync(descriptor_) != 0) fail_writing(target_, errno);
-  close();
+  // Closed afterwards: the lock holds until the file has its name.
   if (std::rename(temporary_.c_str(), place_.c_str()) != 0) fail_writing(target_, errno);
   temporary_.clear();  // nothing left to remove
+  close();
   sync_folder(target_, folder_of(place_));
 }
 
