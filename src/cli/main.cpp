@@ -49,6 +49,8 @@ int run(int argc, char** argv) {
 }
 
 int report(const char* message, ErrorKind kind) {
+  // The compiler inside PoCL reacts to signals by removing its files, and then fails.
+  if (kind == ErrorKind::device && received_signal() != 0) return report("cancelled", ErrorKind::cancelled);
   remark("rpf: error: {}\n", message);
   return kind == ErrorKind::cancelled ? 128 + received_signal() : static_cast<int>(kind);
 }

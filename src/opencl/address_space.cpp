@@ -13,7 +13,7 @@ namespace rpf {
 namespace {
 
 constexpr std::size_t megabyte = std::size_t{1} << 20;
-constexpr std::size_t driver_bytes = 400 * megabyte, compiler_bytes = 400 * megabyte;
+constexpr std::size_t driver_bytes = 450 * megabyte, compiler_bytes = 400 * megabyte;
 constexpr std::size_t stack_bytes = 10 * megabyte;  // of a thread: 8 MB by default, and what else one takes
 
 bool is_limited() {
