@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
-#include <regex>
 
 #include "io/checked_writer.h"
 #include "rpf/error.h"
@@ -76,12 +75,19 @@ void remove_if_left(const std::string& path) {
   ::close(descriptor);
 }
 
+// .rpf-<pid>-<n><extension>
+bool is_temporary(const std::string& name) {
+  int process = 0, number = 0, end = 0;
+  if (std::sscanf(name.c_str(), ".rpf-%9d-%9d%n", &process, &number, &end) != 2) return false;
+  const std::string rest = name.substr(static_cast<std::size_t>(end));
+  return process > 0 && number >= 0 && (rest.empty() || (rest[0] == '.' && rest.find('.', 1) == std::string::npos));
+}
+
 void remove_what_was_left(const fs::path& folder) {
-  static const std::regex temporary(R"(\.rpf-[0-9]+-[0-9]+(\.[^.]*)?)");
   std::error_code failed;
   for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
     const std::string name = entry->path().filename().string();
-    if (name[0] == '.' && std::regex_match(name, temporary)) remove_if_left(entry->path().string());
+    if (is_temporary(name)) remove_if_left(entry->path().string());
   }
 }
 
