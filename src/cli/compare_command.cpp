@@ -8,6 +8,7 @@
 #include "cli/filter_options.h"
 #include "cli/heat_map.h"
 #include "cli/picture.h"
+#include "cli/print.h"
 #include "rpf/error.h"
 #include "rpf/io.h"
 #include "rpf/metrics.h"
@@ -62,8 +63,7 @@ bool above_limit(const Comparison& comparison, double limit) {
   bool above = false;
   for (const ComparedImage& image : comparison.images) {
     if (image.error.relmse <= limit) continue;
-    fmt::print(stderr, "rpf: \"{}\": relMSE {:.6g} is above --max-error {:.6g}\n", image.file, image.error.relmse,
-               limit);
+    remark("rpf: \"{}\": relMSE {:.6g} is above --max-error {:.6g}\n", image.file, image.error.relmse, limit);
     above = true;
   }
   return above;
@@ -78,7 +78,7 @@ int run(const Options& options) {
   if (!options.side_by_side.empty())
     write_image(options.side_by_side, side_by_side(images, crop_of(options.zoom, images)));
   if (!options.diff.empty()) write_image(options.diff, heat_maps(images));
-  fmt::print("{}", options.json ? json_of(comparison) : table_of(comparison));
+  print("{}", options.json ? json_of(comparison) : table_of(comparison));
   return options.limited && above_limit(comparison, options.max_error) ? exit_above_limit : 0;
 }
 

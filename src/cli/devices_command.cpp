@@ -1,6 +1,6 @@
-#include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/print.h"
 #include "rpf/devices.h"
 #include "rpf/error.h"
 
@@ -19,13 +19,12 @@ std::string verdict(int index) {
   }
 }
 
-void print(const DeviceInfo& d) {
-  fmt::print("{} {}\n", d.index, d.name);
-  fmt::print("  {} on {}, driver {}, {}\n", d.type, d.platform, d.driver, d.version);
-  fmt::print("  {} compute units, {} floats a vector, {:.1f} GB memory, largest buffer {:.1f} GB\n", d.compute_units,
-             d.vector_width, static_cast<double>(d.memory) / gigabyte,
-             static_cast<double>(d.largest_buffer) / gigabyte);
-  fmt::print("  {}\n", verdict(d.index));
+void print_device(const DeviceInfo& d) {
+  print("{} {}\n", d.index, d.name);
+  print("  {} on {}, driver {}, {}\n", d.type, d.platform, d.driver, d.version);
+  print("  {} compute units, {} floats a vector, {:.1f} GB memory, largest buffer {:.1f} GB\n", d.compute_units,
+        d.vector_width, static_cast<double>(d.memory) / gigabyte, static_cast<double>(d.largest_buffer) / gigabyte);
+  print("  {}\n", verdict(d.index));
 }
 
 }  // namespace
@@ -34,9 +33,9 @@ Command add_devices_command(CLI::App& app) {
   app.add_subcommand("devices", "List the OpenCL devices for --device, and whether they keep the numeric contract");
   return [] {
     const std::vector<DeviceInfo> found = devices();
-    for (const DeviceInfo& device : found) print(device);
+    for (const DeviceInfo& device : found) print_device(device);
     if (found.empty())
-      fmt::print("no OpenCL device; install one (Debian: apt-get install pocl-opencl-icd), or use --backend=cpu\n");
+      print("no OpenCL device; install one (Debian: apt-get install pocl-opencl-icd), or use --backend=cpu\n");
     return 0;
   };
 }

@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/filter_options.h"
+#include "cli/print.h"
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
 #include "rpf/error.h"
@@ -42,13 +43,12 @@ SampleLayout layout_of(const SampleFileInfo& info) {
 }
 
 /// Needs more than the limit: refused before anything is read.
-void check_budget(const SampleFileInfo& info, const Settings& settings, bool print) {
+void check_budget(const SampleFileInfo& info, const Settings& settings, bool tell) {
   const auto need =
       predict_memory({info.data_window.pixel_count(), info.sample_count, info.max_samples}, layout_of(info), settings);
   const double need_mb = static_cast<double>(need) / megabyte,
                limit_mb = static_cast<double>(settings.max_memory) / megabyte;
-  if (print)
-    fmt::print("peak memory: {:.0f} MB of at most {:.0f} MB, {} threads\n", need_mb, limit_mb, settings.threads);
+  if (tell) print("peak memory: {:.0f} MB of at most {:.0f} MB, {} threads\n", need_mb, limit_mb, settings.threads);
   if (need > settings.max_memory)
     throw Error(
         ErrorKind::memory,
@@ -59,19 +59,19 @@ void check_budget(const SampleFileInfo& info, const Settings& settings, bool pri
 
 void print_notes(const Report& report) {
   for (const InputNote& note : report.notes)
-    fmt::print(stderr, "rpf: note: {}: {} (first at pixel {},{})\n", note.what, note.count, note.x, note.y);
+    remark("rpf: note: {}: {} (first at pixel {},{})\n", note.what, note.count, note.x, note.y);
 }
 
 void print_report(const Report& report) {
-  fmt::print("backend {}\nrandom parameters: {}\nfeatures: {}\n", report.backend, list(report.random),
-             list(report.features));
-  if (!report.dropped.empty()) fmt::print("constant, not modeled: {}\n", list(report.dropped));
-  fmt::print("{:>4} {:>4} {:>9} {:>11} {:>6} {:>6} {:>6} {:>7} {:>8}\n", "pass", "box", "neighbors", "acceptance", "W",
-             "alpha", "beta", "energy", "seconds");
+  print("backend {}\nrandom parameters: {}\nfeatures: {}\n", report.backend, list(report.random),
+        list(report.features));
+  if (!report.dropped.empty()) print("constant, not modeled: {}\n", list(report.dropped));
+  print("{:>4} {:>4} {:>9} {:>11} {:>6} {:>6} {:>6} {:>7} {:>8}\n", "pass", "box", "neighbors", "acceptance", "W",
+        "alpha", "beta", "energy", "seconds");
   for (std::size_t i = 0; i < report.passes.size(); ++i) {
     const PassReport& p = report.passes[i];
-    fmt::print("{:>4} {:>4} {:>9.1f} {:>11.3f} {:>6.3f} {:>6.3f} {:>6.3f} {:>7.4f} {:>8.2f}\n", i + 1, p.box_width,
-               p.neighbors, p.acceptance, p.fraction_random, p.alpha, p.beta, p.energy, p.seconds);
+    print("{:>4} {:>4} {:>9.1f} {:>11.3f} {:>6.3f} {:>6.3f} {:>6.3f} {:>7.4f} {:>8.2f}\n", i + 1, p.box_width,
+          p.neighbors, p.acceptance, p.fraction_random, p.alpha, p.beta, p.energy, p.seconds);
   }
 }
 
@@ -129,12 +129,12 @@ int run(const FilterOptions& options) {
   });
   write_results(options, result);
   if (!options.quiet) print_notes(result.report);
-  if (!options.quiet && settings.backend == "auto") fmt::print("backend {}\n", result.report.backend);
+  if (!options.quiet && settings.backend == "auto") print("backend {}\n", result.report.backend);
   if (options.verbose) print_report(result.report);
   if (!options.quiet)
-    fmt::print("{}: {}x{} pixels, {} samples, {} passes in {:.1f} s ({:.1f} CPU seconds, {:.1f} of them reading)\n",
-               options.output, info.data_window.width, info.data_window.height, info.sample_count,
-               settings.box_widths.size(), result.report.seconds, cpu_seconds() - start, read - start);
+    print("{}: {}x{} pixels, {} samples, {} passes in {:.1f} s ({:.1f} CPU seconds, {:.1f} of them reading)\n",
+          options.output, info.data_window.width, info.data_window.height, info.sample_count,
+          settings.box_widths.size(), result.report.seconds, cpu_seconds() - start, read - start);
   return received_signal() == 0 ? 0 : 128 + received_signal();
 }
 

@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/environment.h"
 #include "cli/filter_options.h"
+#include "cli/print.h"
 #include "rpf/filter.h"
 
 namespace rpf::cli {
@@ -26,25 +27,25 @@ std::string window_text(const Window& w) { return fmt::format("{}x{}{:+}{:+}", w
 
 void print_file(const SampleFileInfo& info) {
   const auto pixels = static_cast<double>(info.data_window.pixel_count());
-  fmt::print("{}\n  data window {}, display window {}, compression {}\n", info.path, window_text(info.data_window),
-             window_text(info.display_window), info.compression);
-  fmt::print("  {} samples: {} to {} a pixel, {:.2f} on average, {} empty pixels\n", info.sample_count,
-             info.min_samples, info.max_samples, static_cast<double>(info.sample_count) / pixels, info.empty_pixels);
+  print("{}\n  data window {}, display window {}, compression {}\n", info.path, window_text(info.data_window),
+        window_text(info.display_window), info.compression);
+  print("  {} samples: {} to {} a pixel, {:.2f} on average, {} empty pixels\n", info.sample_count, info.min_samples,
+        info.max_samples, static_cast<double>(info.sample_count) / pixels, info.empty_pixels);
 }
 
 void print_channels(const SampleFileInfo& info, const std::vector<ChannelSurvey>& surveys) {
-  fmt::print("  {:<20} {:<20} {:<6} {:>12} {:>12}  {}\n", "slot", "<- channel", "type", "least", "largest", "remarks");
+  print("  {:<20} {:<20} {:<6} {:>12} {:>12}  {}\n", "slot", "<- channel", "type", "least", "largest", "remarks");
   for (const SampleFileChannel& channel : info.channels) {
     const auto found =
         std::find_if(surveys.begin(), surveys.end(), [&](const ChannelSurvey& s) { return s.slot == channel.slot; });
     if (found == surveys.end()) {
-      fmt::print("  {:<20} {:<20} {:<6}\n", "(not used)", channel.name, type_name(channel.type));
+      print("  {:<20} {:<20} {:<6}\n", "(not used)", channel.name, type_name(channel.type));
       continue;
     }
     std::string remarks = found->constant ? "constant" : "";
     if (found->non_finite > 0) remarks += fmt::format(" {} non-finite", found->non_finite);
-    fmt::print("  {:<20} {:<20} {:<6} {:>12.6g} {:>12.6g}  {}\n", channel.slot, channel.name, type_name(channel.type),
-               found->minimum, found->maximum, remarks);
+    print("  {:<20} {:<20} {:<6} {:>12.6g} {:>12.6g}  {}\n", channel.slot, channel.name, type_name(channel.type),
+          found->minimum, found->maximum, remarks);
   }
 }
 
@@ -55,9 +56,9 @@ void print_memory(const SampleFileInfo& info, const SampleBuffer& samples) {
   constexpr double megabyte = 1 << 20;
   for (const Profile profile : {Profile::thesis, Profile::paper}) {
     settings.profile = profile;
-    fmt::print("  predicted peak memory, {} profile, {} threads: {:.0f} MB\n",
-               profile == Profile::thesis ? "thesis" : "paper", settings.threads,
-               static_cast<double>(predict_memory(size, samples.layout, settings)) / megabyte);
+    print("  predicted peak memory, {} profile, {} threads: {:.0f} MB\n",
+          profile == Profile::thesis ? "thesis" : "paper", settings.threads,
+          static_cast<double>(predict_memory(size, samples.layout, settings)) / megabyte);
   }
 }
 

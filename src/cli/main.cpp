@@ -1,10 +1,9 @@
-#include <fmt/format.h>
 
 #include <csignal>
-#include <cstdio>
 #include <new>
 
 #include "cli/commands.h"
+#include "cli/print.h"
 #include "cli/signals.h"
 #include "rpf/error.h"
 #include "rpf/version.h"
@@ -51,7 +50,9 @@ int run(int argc, char** argv) {
 }
 
 int report(const char* message, ErrorKind kind) {
-  fmt::print(stderr, "rpf: error: {}\n", message);
+  // The compiler inside PoCL reacts to signals by removing its files, and then fails.
+  if (kind == ErrorKind::device && received_signal() != 0) return report("cancelled", ErrorKind::cancelled);
+  remark("rpf: error: {}\n", message);
   return kind == ErrorKind::cancelled ? 128 + received_signal() : static_cast<int>(kind);
 }
 
@@ -60,9 +61,13 @@ int report(const char* message, ErrorKind kind) {
 
 int main(int argc, char** argv) {
   using namespace rpf;
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe shall not leave a temporary file behind
+  // As errors of a write they are reported and cleaned up after; as signals they would leave a temporary file behind.
+  for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);
+  cli::open_standard_streams();
   try {
-    return cli::run(argc, argv);
+    const int code = cli::run(argc, argv);
+    cli::finish_printing();
+    return code;
   } catch (const Error& e) {
     return cli::report(e.what(), e.kind());
   } catch (const std::bad_alloc&) {

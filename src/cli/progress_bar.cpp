@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cli/print.h"
+
 namespace rpf::cli {
 namespace {
 
@@ -24,7 +26,7 @@ ProgressBar::ProgressBar(const std::string& mode)
     : visible_(mode == "always" || (mode == "auto" && isatty(STDERR_FILENO) == 1)) {}
 
 ProgressBar::~ProgressBar() {
-  if (shown_) fmt::print(stderr, "\n");
+  if (shown_) remark("\n");
 }
 
 void ProgressBar::show(const Progress& progress) {
@@ -34,9 +36,8 @@ void ProgressBar::show(const Progress& progress) {
   latest_ = now;
   shown_ = true;
   const int filled = static_cast<int>(progress.fraction * bar_width);
-  fmt::print(stderr, "\rpass {}/{} [{:=<{}}{:<{}}] {:3.0f} %  {} left ", progress.pass + 1, progress.passes, "", filled,
-             "", bar_width - filled, 100 * progress.fraction, clock_time(is_last ? 0 : progress.seconds_left));
-  std::fflush(stderr);
+  remark("\rpass {}/{} [{:=<{}}{:<{}}] {:3.0f} %  {} left ", progress.pass + 1, progress.passes, "", filled, "",
+         bar_width - filled, 100 * progress.fraction, clock_time(is_last ? 0 : progress.seconds_left));
 }
 
 }  // namespace rpf::cli

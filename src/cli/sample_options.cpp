@@ -1,11 +1,10 @@
 #include "cli/sample_options.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "cli/environment.h"
 #include "cli/filter_options.h"
+#include "cli/print.h"
 #include "cli/signals.h"
 
 namespace rpf::cli {
@@ -44,8 +43,8 @@ std::vector<std::string> half_slots_of(const std::vector<SampleFileInfo>& files)
 int write_and_tell(const std::string& path, const SampleBuffer& samples, const std::vector<std::string>& half_slots) {
   const SignalGuard guard;  // a signal now waits until the file is whole
   write_samples(path, samples, half_slots);
-  fmt::print("{}: {}x{} pixels, {} samples of {} slots\n", path, samples.data_window.width, samples.data_window.height,
-             samples.sample_count(), samples.layout.size());
+  print("{}: {}x{} pixels, {} samples of {} slots\n", path, samples.data_window.width, samples.data_window.height,
+        samples.sample_count(), samples.layout.size());
   return received_signal() == 0 ? 0 : 128 + received_signal();
 }
 

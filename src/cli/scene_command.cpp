@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/environment.h"
+#include "cli/print.h"
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
 #include "rpf/error.h"
@@ -46,7 +47,7 @@ SceneOptions scene_options(const Options& o) {
 }
 
 void print_list() {
-  for (const SceneInfo& scene : scenes()) fmt::print("{:<15} {}\n", scene.name, scene.purpose);
+  for (const SceneInfo& scene : scenes()) print("{:<15} {}\n", scene.name, scene.purpose);
 }
 
 void check_usage(const Options& o) {
@@ -64,8 +65,8 @@ void write_reference_image(const Options& o, const SceneOptions& scene) {
   const SignalGuard guard;  // a signal now waits until the file is whole
   write_image(o.output, image);
   if (o.quiet) return;
-  fmt::print("{}: {}x{} pixels, {} samples a pixel, residual relMSE {:.3g}\n", o.output, scene.width, scene.height,
-             scene.samples, std::get<float>(image.metadata.at("rpf:residualRelMSE")));
+  print("{}: {}x{} pixels, {} samples a pixel, residual relMSE {:.3g}\n", o.output, scene.width, scene.height,
+        scene.samples, std::get<float>(image.metadata.at("rpf:residualRelMSE")));
 }
 
 /// More than the machine has: refused before anything is rendered.
@@ -87,7 +88,7 @@ void write_sample_file(const Options& o, const SceneOptions& scene) {
   const SignalGuard guard;
   write_samples(o.output, samples);
   if (o.quiet) return;
-  fmt::print("{}: {}x{} pixels, {} samples\n", o.output, scene.width, scene.height, samples.sample_count());
+  print("{}: {}x{} pixels, {} samples\n", o.output, scene.width, scene.height, samples.sample_count());
 }
 
 int run(const Options& o) {

@@ -1,9 +1,9 @@
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>
 
 #include "cli/commands.h"
+#include "cli/print.h"
 #include "cli/signals.h"
 #include "rpf/conformance.h"
 
@@ -19,27 +19,27 @@ struct Options {
 
 void print_summary(const ConformanceReport& report) {
   for (const CaseResult& c : report.cases)
-    if (!c.first_difference.empty()) fmt::print("{}: {}\n", c.name, c.first_difference);
-  fmt::print("{}\n", summary_of(report));
+    if (!c.first_difference.empty()) print("{}: {}\n", c.name, c.first_difference);
+  print("{}\n", summary_of(report));
 }
 
 int run(const Options& options) {
   if (options.list) {
-    for (const std::string& name : conformance_cases(options.conformance)) fmt::print("{}\n", name);
+    for (const std::string& name : conformance_cases(options.conformance)) print("{}\n", name);
     return 0;
   }
   const SignalGuard guard;
   ConformanceOptions conformance = options.conformance;
   conformance.progress = [](std::size_t number, std::size_t count, const std::string& name) {
-    if (isatty(STDERR_FILENO) == 1) fmt::print(stderr, "\r\033[K{} of {}: {}", number + 1, count, name);
+    if (isatty(STDERR_FILENO) == 1) remark("\r\033[K{} of {}: {}", number + 1, count, name);
     return received_signal() == 0;
   };
   const ConformanceReport report = check_conformance(conformance);
-  if (isatty(STDERR_FILENO) == 1) fmt::print(stderr, "\r\033[K");
+  if (isatty(STDERR_FILENO) == 1) remark("\r\033[K");
   if (options.markdown)
-    fmt::print("{}", markdown_of(report));
+    print("{}", markdown_of(report));
   else if (options.json)
-    fmt::print("{}", json_of(report));
+    print("{}", json_of(report));
   else
     print_summary(report);
   return report.failures() == 0 ? 0 : exit_on_difference;

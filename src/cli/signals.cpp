@@ -5,7 +5,7 @@
 namespace rpf::cli {
 namespace {
 
-constexpr int handled[] = {SIGINT, SIGTERM, SIGHUP};
+constexpr std::array<int, 3> handled = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t latest_signal = 0;
 
@@ -14,11 +14,14 @@ extern "C" void remember(int number) { latest_signal = number; }
 }  // namespace
 
 SignalGuard::SignalGuard() {
-  for (const int number : handled) std::signal(number, remember);
+  for (std::size_t i = 0; i < handled.size(); ++i) {
+    former_[i] = std::signal(handled[i], remember);
+    if (former_[i] == SIG_IGN) std::signal(handled[i], SIG_IGN);
+  }
 }
 
 SignalGuard::~SignalGuard() {
-  for (const int number : handled) std::signal(number, SIG_DFL);
+  for (std::size_t i = 0; i < handled.size(); ++i) std::signal(handled[i], former_[i]);
 }
 
 int received_signal() { return latest_signal; }

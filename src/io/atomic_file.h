@@ -9,7 +9,8 @@ class AtomicFile {
  public:
   /// Makes the temporary file ".rpf-<pid>-<n><extension>" in the target's folder. A symbolic link is followed, so the
   /// link stays. Throws Error(output) where the folder is missing or cannot be written to, or where the target exists
-  /// and is no regular file: renaming onto /dev/null would replace the device.
+  /// and is no regular file: renaming onto /dev/null would replace the device. Removes temporary files in that folder
+  /// that killed processes left.
   explicit AtomicFile(const std::string& target);
   /// Removes the temporary file unless it was committed.
   ~AtomicFile();

@@ -131,8 +131,10 @@ class ValueReader {
     for (std::size_t x = 0; x < width; ++x) {
       // OpenEXR writes as many samples as the counts say now; a file that changed meanwhile must not write elsewhere.
       if (counts[x] != first[x + 1] - first[x]) throw std::runtime_error("it changed while it was read");
+      // A pixel without samples has no place in the buffer, and a frame without samples has no buffer.
       for (std::size_t column = 0; column < samples_.layout.size(); ++column)
-        pointers_[column * width + x] = reinterpret_cast<char*>(samples_.record(first[x]) + column);
+        pointers_[column * width + x] =
+            counts[x] == 0 ? nullptr : reinterpret_cast<char*>(samples_.record(first[x]) + column);
     }
     file_.readPixels(samples_.data_window.y + row);
   }

@@ -173,7 +173,8 @@ std::uint64_t check_structure(FileBytes& file) {
   for (std::size_t count = 0; next_attribute(file, position, attribute); ++count) {
     if (count == max_attributes) reject(file, fmt::format("has more than {} header attributes", max_attributes));
     missing.erase(attribute.name);
-    if (attribute.name == "channels") check_channel_list(file, attribute);
+    // OpenEXR reads a list of this type to its end whatever its size, under any name.
+    if (attribute.name == "channels" || attribute.type == "chlist") check_channel_list(file, attribute);
     if (attribute.name == "type") check_type(file, attribute);
   }
   if (!missing.empty()) reject_damaged(file, fmt::format("its header has no attribute {}", *missing.begin()));

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <mutex>
 
+#include "opencl/address_space.h"
 #include "opencl/kernel_cache.h"
 #include "opencl/kernel_source.h"
 #include "opencl/self_test.h"
@@ -59,6 +60,8 @@ std::string build_options(const cl::Device& device, const std::string& definitio
 }  // namespace
 
 std::vector<cl::Device> all_devices() {
+  static std::once_flag started;
+  std::call_once(started, check_address_space_to_start);  // once more where it throws
   prepare_kernel_cache();
   std::vector<cl::Device> result;
   try {
@@ -132,6 +135,7 @@ Session::Session(cl::Device device) : device_(std::move(device)), context_(devic
 const cl::Program& Session::program(const std::string& file, const std::string& definitions) {
   const std::string key = file + " " + definitions;
   if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
+  check_address_space_to_compile();
   cl::Program program(context_, kernel_source(file));
   try {
     program.build(device_, build_options(device_, definitions).c_str());
@@ -146,11 +150,13 @@ const cl::Program& Session::program(const std::string& file, const std::string& 
 }
 
 void Session::launch(const cl::Kernel& kernel, std::size_t items, std::size_t group) {
+  const std::string name = fmt::format("{} of {}", kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(),
+                                       fmt::ptr(kernel.getInfo<CL_KERNEL_PROGRAM>()()));
+  const bool is_new = launched_.count(name) == 0;
+  if (is_new) check_address_space_to_compile();
   queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(group));
   queue_.finish();
   canaries_.check(queue_);
-  const std::string name = fmt::format("{} of {}", kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(),
-                                       fmt::ptr(kernel.getInfo<CL_KERNEL_PROGRAM>()()));
   if (launched_.insert(name).second) keep_compiled_kernels();
 }
 

@@ -241,6 +241,22 @@ TEST(Filter, WeightsSamplesInThePixelMean) {
   for (std::size_t p = 0; p < 20; ++p) EXPECT_EQ(pixels[3 * p], value_of(samples, 3 * p, "R"));
 }
 
+// Found by fuzz_filter: sums of such weights and alphas were infinite, and a pixel NaN.
+TEST(Filter, StaysFiniteWithHugeWeightsAndAlphas) {
+  constexpr float huge = std::numeric_limits<float>::max();
+  SampleBuffer samples = defocused_edge({5, 4, 4, 1});
+  test::add_channel(samples, "weight", 1.0F);
+  test::add_channel(samples, "A", 1.0F);
+  for (std::size_t i = 0; i < samples.sample_count(); ++i) {
+    value_of(samples, i, "weight") = i % 4 < 2 ? huge : 1e15F;
+    value_of(samples, i, "A") = i % 8 < 4 ? huge : -huge;
+  }
+  const Result result = run_filter(samples, small_settings());
+  for (const float value : result.image.pixels) EXPECT_TRUE(std::isfinite(value));
+  ASSERT_EQ(result.report.notes.size(), 1U);
+  EXPECT_EQ(result.report.notes[0].count, 40U);  // samples left out
+}
+
 TEST(Filter, FiltersAlphaAndFeaturesWithTheSameWeights) {
   SampleBuffer samples = defocused_edge();
   test::add_channel(samples, "A", 0.0F);

@@ -74,6 +74,21 @@ TEST(AtomicFile, WithoutCommitTheTargetIsUntouched) {
   EXPECT_EQ(folder.entry_count(), 1U);
 }
 
+TEST(AtomicFile, RemovesWhatKilledProcessesLeftAndNothingElse) {
+  const TemporaryFolder folder;
+  for (const char* name : {".rpf-123-0.exr", ".rpf-4194304-17", ".rpf-notes.exr", "rpf-123-0.exr", "out.exr"})
+    write_bytes(folder.file(name), "old");
+  std::filesystem::create_directory(folder.file(".rpf-123-1.exr"));
+  AtomicFile file(folder.file("out.exr"));
+  put(file, "new");
+  const AtomicFile other(folder.file("another.exr"));  // of this process or of another one: both write
+  EXPECT_FALSE(std::filesystem::exists(folder.file(".rpf-123-0.exr")));
+  EXPECT_FALSE(std::filesystem::exists(folder.file(".rpf-4194304-17")));
+  EXPECT_EQ(folder.entry_count(), 4U + 2U);
+  file.commit();
+  EXPECT_EQ(file_bytes(folder.file("out.exr")), "new");
+}
+
 TEST(AtomicFile, TargetsThatCannotBe) {
   const TemporaryFolder folder;
   const auto error_for = [](const std::string& target) { return error_of([&] { const AtomicFile file(target); }); };

@@ -216,6 +216,17 @@ TEST(Refusals, HeadersWithAMissingOrMisshapenAttribute) {
   expect_refused(folder.file("good.exr"), {"pixelAspectRatio of type float has 5 bytes instead of 4"});
 }
 
+// Found by fuzz_samples: OpenEXR read such a list beyond its end, and took what followed for a size of 1.7 GB.
+TEST(Refusals, AListOfChannelsUnderAnotherNameThatRunsOverItsEnd) {
+  const TemporaryFolder folder;
+  write_deep(folder.file("a.exr"), {});
+  std::string bytes = file_bytes(folder.file("a.exr"));
+  const std::string list("X\0\2\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0", 18);  // one channel, no end of the list
+  bytes.insert(bytes.find("channels"), std::string("another\0chlist\0", 15) + int_bytes(18) + list);
+  write_bytes(folder.file("a.exr"), bytes);
+  expect_refused(folder.file("a.exr"), {"channel list does not fill its attribute"});
+}
+
 TEST(Refusals, AFileWhoseWriterStopped) {
   const TemporaryFolder folder;
   {

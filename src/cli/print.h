@@ -1,0 +1,33 @@
+// What the command says. A stream that is full, closed or has lost its reader must not cost an image, so nothing here
+// throws; main() looks at the end whether results were lost.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace rpf::cli {
+
+/// Opens /dev/null for the standard streams that are closed, or else the first files to be opened would take their
+/// numbers and receive what is printed.
+void open_standard_streams();
+
+/// Results, to standard output.
+void print_text(const std::string& text);
+template <class... T>
+void print(fmt::format_string<T...> format, T&&... values) {
+  print_text(fmt::format(format, std::forward<T>(values)...));
+}
+
+/// Remarks, to standard error, at once; lost where that cannot be written.
+void remark_text(const std::string& text);
+template <class... T>
+void remark(fmt::format_string<T...> format, T&&... values) {
+  remark_text(fmt::format(format, std::forward<T>(values)...));
+}
+
+/// Hands over what is still buffered. Throws Error(output) where results were lost; a reader that left early, as in
+/// `rpf info FILE | head -1`, has what it wanted.
+void finish_printing();
+
+}  // namespace rpf::cli
