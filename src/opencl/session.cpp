@@ -132,9 +132,13 @@ Session::Session(cl::Device device) : device_(std::move(device)), context_(devic
 const cl::Program& Session::program(const std::string& file, const std::string& definitions) {
   const std::string key = file + " " + definitions;
   if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
-  cl::Program program(context_, kernel_source(file));
+  const std::string text = kernel_source(file), options = build_options(device_, definitions);
+  const std::string source = fmt::format("{}\n{}\n{}\n{}", device_.getInfo<CL_DEVICE_NAME>(),
+                                         device_.getInfo<CL_DRIVER_VERSION>(), options, text);
+  check_kernels(source);
+  cl::Program program(context_, text);
   try {
-    program.build(device_, build_options(device_, definitions).c_str());
+    program.build(device_, options.c_str());
   } catch (const cl::Error& e) {
     throw Error(ErrorKind::device,
                 fmt::format("compiling {} for '{}' failed ({}), please report it; --backend=cpu works without. "
@@ -142,6 +146,7 @@ const cl::Program& Session::program(const std::string& file, const std::string& 
                             file, device_.getInfo<CL_DEVICE_NAME>(), e.err(), definitions,
                             program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_)));
   }
+  sources_[program()] = source;
   return programs_.emplace(key, program).first->second;
 }
 
@@ -149,9 +154,9 @@ void Session::launch(const cl::Kernel& kernel, std::size_t items, std::size_t gr
   queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(group));
   queue_.finish();
   canaries_.check(queue_);
-  const std::string name = fmt::format("{} of {}", kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(),
-                                       fmt::ptr(kernel.getInfo<CL_KERNEL_PROGRAM>()()));
-  if (launched_.insert(name).second) keep_compiled_kernels();
+  const cl_program program = kernel.getInfo<CL_KERNEL_PROGRAM>()();
+  const std::string name = fmt::format("{} of {}", kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(), fmt::ptr(program));
+  if (launched_.insert(name).second) keep_compiled_kernels(sources_[program]);
 }
 
 cl::Buffer Session::copy_of(const void* data, std::size_t bytes) {
