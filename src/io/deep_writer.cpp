@@ -2,29 +2,20 @@
 #include "io/deep_writer.h"
 
 #include <ImfChannelList.h>
-#include <ImfChromaticitiesAttribute.h>
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepScanLineOutputFile.h>
-#include <ImfFloatAttribute.h>
-#include <ImfFloatVectorAttribute.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfIntAttribute.h>
-#include <ImfMatrixAttribute.h>
 #include <ImfPartType.h>
-#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
-#include <ImfVecAttribute.h>
 #include <fmt/format.h>
 #include <half.h>
-
-#include <algorithm>
-#include <stdexcept>
 
 #include "io/atomic_file.h"
 #include "io/attributes.h"
 #include "io/checked_writer.h"
 #include "io/deep_reader.h"
+#include "io/exr_output.h"
 #include "io/guard.h"
 #include "io/near_names.h"
 #include "io/reading.h"
@@ -33,55 +24,6 @@
 
 namespace rpf::io {
 namespace {
-
-class WriterStream : public Imf::OStream {
- public:
-  WriterStream(CheckedWriter& writer, const std::string& name) : OStream(name.c_str()), writer_(writer) {}
-  void write(const char* bytes, int count) override {
-    // OpenEXR stops at an exception; the reason stays in the writer.
-    if (!writer_.write(bytes, static_cast<std::size_t>(count))) throw std::runtime_error("write failed");
-  }
-  std::uint64_t tellp() override { return writer_.position(); }
-  void seekp(std::uint64_t position) override { writer_.seek(position); }
-
- private:
-  CheckedWriter& writer_;
-};
-
-template <class Value>
-Value vector_value(const std::vector<float>& floats) {
-  Value value;  // Imath's vectors and matrices are plain arrays of floats
-  std::copy(floats.begin(), floats.end(), reinterpret_cast<float*>(&value));
-  return value;
-}
-
-void insert_floats(Imf::Header& header, const std::string& name, const std::vector<float>& floats) {
-  if (name == "chromaticities" && floats.size() == 8)
-    return header.insert(name, Imf::ChromaticitiesAttribute(vector_value<Imf::Chromaticities>(floats)));
-  switch (floats.size()) {
-    case 2:
-      return header.insert(name, Imf::V2fAttribute(vector_value<Imath::V2f>(floats)));
-    case 3:
-      return header.insert(name, Imf::V3fAttribute(vector_value<Imath::V3f>(floats)));
-    case 9:
-      return header.insert(name, Imf::M33fAttribute(vector_value<Imath::M33f>(floats)));
-    case 16:
-      return header.insert(name, Imf::M44fAttribute(vector_value<Imath::M44f>(floats)));
-    default:
-      return header.insert(name, Imf::FloatVectorAttribute(floats));
-  }
-}
-
-void insert_attribute(Imf::Header& header, const std::string& name, const Attribute& value) {
-  if (const auto* number = std::get_if<std::int32_t>(&value)) header.insert(name, Imf::IntAttribute(*number));
-  if (const auto* real = std::get_if<float>(&value)) header.insert(name, Imf::FloatAttribute(*real));
-  if (const auto* text = std::get_if<std::string>(&value)) header.insert(name, Imf::StringAttribute(*text));
-  if (const auto* floats = std::get_if<std::vector<float>>(&value)) insert_floats(header, name, *floats);
-}
-
-Imath::Box2i box_of(const Window& window) {
-  return {Imath::V2i(window.x, window.y), Imath::V2i(window.x + window.width - 1, window.y + window.height - 1)};
-}
 
 // ZIPS: one row a chunk, so rows can be read alone.
 Imf::Header header_of(const SampleBuffer& samples, const std::vector<Imf::PixelType>& types) {

@@ -3,9 +3,9 @@
 #include <elf.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 #include <system_error>
@@ -21,15 +21,13 @@ namespace fs = std::filesystem;
 constexpr const char* seal_name = "rpf-seal";
 
 std::string content_of(const fs::path& path) {
+  std::error_code failed;
+  const std::uintmax_t size = fs::file_size(path, failed);
+  std::string content(failed ? 0 : size, '\0');
   std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// FNV-1a, 64 bits: this is about accidents, not about attacks.
-std::uint64_t checksum(const std::string& content) {
-  std::uint64_t hash = 14695981039346656037U;
-  for (const char c : content) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
-  return hash;
+  file.read(content.data(), static_cast<std::streamsize>(content.size()));
+  content.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+  return content;
 }
 
 bool is_compiled(const fs::path& path) { return path.extension() == ".so" || path.extension() == ".bc"; }
@@ -40,17 +38,6 @@ std::vector<fs::path> compiled_files(const fs::path& program) {
   for (fs::recursive_directory_iterator entry(program, failed), end; !failed && entry != end; entry.increment(failed))
     if (is_compiled(entry->path())) files.push_back(entry->path());
   return files;
-}
-
-std::vector<fs::path> programs(const fs::path& folder) {
-  std::vector<fs::path> result;
-  std::error_code failed;
-  for (fs::recursive_directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
-    if (entry.depth() == 1 && entry->is_directory(failed)) {
-      result.push_back(entry->path());
-      entry.disable_recursion_pending();
-    }
-  return result;
 }
 
 /// Checksums by file name relative to the program; empty where it has no seal.
@@ -91,6 +78,45 @@ bool is_sealed(const fs::path& program, const std::vector<fs::path>& files) {
   return true;
 }
 
+}  // namespace
+
+std::uint64_t checksum(const std::string& content) {
+  std::uint64_t hash = 14695981039346656037U;
+  for (const char c : content) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
+  return hash;
+}
+
+std::vector<fs::path> all_programs(const fs::path& folder) {
+  std::vector<fs::path> result;
+  std::error_code failed;
+  for (fs::recursive_directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
+    if (entry.depth() == 1 && entry->is_directory(failed)) {
+      result.push_back(entry->path());
+      entry.disable_recursion_pending();
+    }
+  return result;
+}
+
+void seal(const std::vector<fs::path>& programs) {
+  for (const fs::path& program : programs) {
+    const std::vector<fs::path> files = compiled_files(program);
+    if (is_sealed(program, files)) continue;
+    const fs::path temporary = program / (std::string(seal_name) + "-" + std::to_string(getpid()));
+    std::ofstream record(temporary);
+    for (const fs::path& path : files)
+      record << checksum(content_of(path)) << ' ' << path.lexically_relative(program).string() << '\n';
+    record.close();
+    std::error_code failed;
+    fs::rename(temporary, program / seal_name, failed);
+  }
+}
+
+void remove_damaged(const std::vector<fs::path>& programs) {
+  std::error_code failed;
+  for (const fs::path& program : programs)
+    if (is_damaged(program)) fs::remove_all(program, failed);
+}
+
 void remove_forgotten_files(const fs::path& folder) {
   constexpr auto forgotten = std::chrono::hours(24);
   std::error_code failed;
@@ -100,29 +126,6 @@ void remove_forgotten_files(const fs::path& folder) {
     const auto age = fs::file_time_type::clock::now() - entry->last_write_time(gone);
     if (!gone && age > forgotten) fs::remove(entry->path(), gone);
   }
-}
-
-}  // namespace
-
-void seal_cache(const fs::path& folder) {
-  for (const fs::path& program : programs(folder)) {
-    const std::vector<fs::path> files = compiled_files(program);
-    if (is_sealed(program, files)) continue;
-    const fs::path temporary = program / (std::string(seal_name) + "-" + std::to_string(getpid()));
-    std::ofstream seal(temporary);
-    for (const fs::path& path : files)
-      seal << checksum(content_of(path)) << ' ' << path.lexically_relative(program).string() << '\n';
-    seal.close();
-    std::error_code failed;
-    fs::rename(temporary, program / seal_name, failed);
-  }
-}
-
-void clean_cache(const fs::path& folder) {
-  std::error_code failed;
-  for (const fs::path& program : programs(folder))
-    if (is_damaged(program)) fs::remove_all(program, failed);
-  remove_forgotten_files(folder);
 }
 
 }  // namespace rpf

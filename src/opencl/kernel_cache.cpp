@@ -5,10 +5,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <mutex>
 #include <string>
 #include <system_error>
+#include <vector>
 
+#include "opencl/cache_index.h"
 #include "opencl/cache_seal.h"
 
 namespace rpf {
@@ -78,7 +81,7 @@ void prepare() {
   }
   if (folder.empty()) return;  // PoCL's own default is as good as anything then
   our_folder() = folder;
-  clean_cache(folder);
+  remove_forgotten_files(folder);
   setenv("POCL_CACHE_DIR", folder.c_str(), 1);
 }
 
@@ -89,8 +92,20 @@ void prepare_kernel_cache() {
   std::call_once(once, prepare);
 }
 
-void keep_compiled_kernels() {
-  if (!our_folder().empty()) seal_cache(our_folder());
+void check_kernels(const std::string& source) {
+  if (our_folder().empty()) return;
+  const std::vector<fs::path> programs = indexed_programs(our_folder(), source);
+  remove_damaged(programs.empty() ? all_programs(our_folder()) : programs);
+}
+
+void keep_compiled_kernels(const std::string& source) {
+  if (our_folder().empty()) return;
+  static std::map<fs::path, std::string> source_of;  // of the programs that this process has loaded
+  std::vector<fs::path> programs;
+  for (const fs::path& program : loaded_programs(our_folder()))
+    if (source_of.emplace(program, source).first->second == source) programs.push_back(program);
+  seal(programs);
+  index_programs(our_folder(), source, programs);
 }
 
 }  // namespace rpf

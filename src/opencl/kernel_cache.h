@@ -1,15 +1,21 @@
 // Where compiled kernels are kept between runs.
 #pragma once
 
+#include <string>
+
 namespace rpf {
 
 /// Gives PoCL a cache folder that works: a folder `pocl` below RPF_CACHE_DIR, XDG_CACHE_HOME/rpf or HOME/.cache/rpf, or
-/// where none of these can be written a private one that is removed at the end of the process. Removes damaged kernels
-/// in it, which would abort the process. Does nothing where POCL_CACHE_DIR is set or after the first call. Call it
-/// before any OpenCL function.
+/// where none of these can be written a private one that is removed at the end of the process. Does nothing where
+/// POCL_CACHE_DIR is set or after the first call. Call it before any OpenCL function.
 void prepare_kernel_cache();
 
-/// Records what was compiled, so that later damage is noticed. Call it after a new kernel ran for the first time.
-void keep_compiled_kernels();
+/// Removes damaged kernels, which would abort the process: those of this source, or all where the cache does not know
+/// the source yet. `source` is all that decides what is compiled. Call it before a program is built.
+void check_kernels(const std::string& source);
+
+/// Records what was compiled from this source, so that later damage is noticed. Call it after each of its kernels ran
+/// for the first time.
+void keep_compiled_kernels(const std::string& source);
 
 }  // namespace rpf

@@ -77,6 +77,7 @@ void OpenClBackend::load(const Frame& frame, std::vector<float> colors, const Pl
   statistics_.assign(frame.first_sample.size() - 1, {});
   band_.reset();
   tables_.clear();
+  if (plan.passes.empty()) return;
   on_device("preparing the filter", [&] {
     const cl::Program& program = session_.program("filter.cl", definitions(frame, plan) + phases_);
     kernel_ = cl::Kernel(program, "filter_tile");

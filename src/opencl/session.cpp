@@ -136,9 +136,13 @@ const cl::Program& Session::program(const std::string& file, const std::string& 
   const std::string key = file + " " + definitions;
   if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
   check_address_space_to_compile();
-  cl::Program program(context_, kernel_source(file));
+  const std::string text = kernel_source(file), options = build_options(device_, definitions);
+  const std::string source = fmt::format("{}\n{}\n{}\n{}", device_.getInfo<CL_DEVICE_NAME>(),
+                                         device_.getInfo<CL_DRIVER_VERSION>(), options, text);
+  check_kernels(source);
+  cl::Program program(context_, text);
   try {
-    program.build(device_, build_options(device_, definitions).c_str());
+    program.build(device_, options.c_str());
   } catch (const cl::Error& e) {
     throw Error(ErrorKind::device,
                 fmt::format("compiling {} for '{}' failed ({}), please report it; --backend=cpu works without. "
@@ -146,18 +150,19 @@ const cl::Program& Session::program(const std::string& file, const std::string& 
                             file, device_.getInfo<CL_DEVICE_NAME>(), e.err(), definitions,
                             program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_)));
   }
+  sources_[program()] = source;
   return programs_.emplace(key, program).first->second;
 }
 
 void Session::launch(const cl::Kernel& kernel, std::size_t items, std::size_t group) {
-  const std::string name = fmt::format("{} of {}", kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(),
-                                       fmt::ptr(kernel.getInfo<CL_KERNEL_PROGRAM>()()));
-  const bool is_new = launched_.count(name) == 0;
+  const cl_program program = kernel.getInfo<CL_KERNEL_PROGRAM>()();
+  const std::string name = fmt::format("{} of {}", kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(), fmt::ptr(program));
+  const bool is_new = launched_.insert(name).second;
   if (is_new) check_address_space_to_compile();
   queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(group));
   queue_.finish();
   canaries_.check(queue_);
-  if (launched_.insert(name).second) keep_compiled_kernels();
+  if (is_new) keep_compiled_kernels(sources_[program]);
 }
 
 cl::Buffer Session::copy_of(const void* data, std::size_t bytes) {

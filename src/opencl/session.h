@@ -77,8 +77,9 @@ class Session {
   cl::Context context_;
   cl::CommandQueue queue_;
   Canaries canaries_;
-  std::map<std::string, cl::Program> programs_;
-  std::set<std::string> launched_;  ///< kernels that ran, with their program
+  std::map<std::string, cl::Program> programs_;  ///< by file and definitions
+  std::map<cl_program, std::string> sources_;    ///< what each was compiled from: text, options, device
+  std::set<std::string> launched_;               ///< kernels that ran, with their program
 };
 
 }  // namespace rpf

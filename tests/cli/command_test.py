@@ -112,6 +112,11 @@ class CommandTest(unittest.TestCase):
         for name in (b"rpf:software", b"rpf:profile", b"rpf:boxes", b"rpf:noise", b"rpf:drawSeed"):
             self.assertIn(name, header)
 
+    def test_starts_without_the_libraries_of_other_image_formats(self):
+        libraries = subprocess.run(["ldd", RPF], capture_output=True, text=True, check=True).stdout
+        self.assertIn("libOpenEXR", libraries)
+        self.assertNotIn("libOpenImageIO", libraries)  # 250 libraries, 0.2 CPU seconds
+
     def test_info_names_slots_and_memory(self):
         self.expect(run("info", EXAMPLE), 0, "random.lens.U", "feature.albedo.R", "predicted peak memory", "4 to 4 a pixel")
 

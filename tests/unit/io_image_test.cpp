@@ -87,6 +87,17 @@ TEST(ImageIo, ExrKeepsMetadata) {
   EXPECT_EQ(back.metadata.count("compression"), 0U);
 }
 
+// A raw sample file's metadata may give a name of OpenEXR's another type; that must not cost the picture.
+TEST(ImageIo, ExrKeepsItsOwnAttributesWhereMetadataHasAnotherType) {
+  const TemporaryFolder folder;
+  Image image = make_image({0, 0, 2, 2}, {"R", "G", "B"});
+  image.metadata = {{"pixelAspectRatio", std::string("wide")}, {"rpf:seed", 7}};
+  rpf::write_image(folder.file("a.exr"), image);
+  const Image back = rpf::read_image(folder.file("a.exr"));
+  EXPECT_EQ(back.metadata.at("pixelAspectRatio"), rpf::Attribute(1.0F));
+  EXPECT_EQ(back.metadata.at("rpf:seed"), rpf::Attribute(7));
+}
+
 TEST(ImageIo, PngIsTheSrgbCurveOfARamp) {
   const TemporaryFolder folder;
   Image image = make_image({0, 0, 1000, 1}, {"R", "G", "B"});

@@ -9,6 +9,7 @@
 
 #include "conformance/comparison.h"
 #include "opencl/band.h"
+#include "opencl/cache_index.h"
 #include "opencl/cache_seal.h"
 #include "opencl/kernel_source.h"
 #include "opencl/self_test.h"
@@ -19,8 +20,10 @@
 namespace rpf {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::UnorderedElementsAre;
 
 /// A frame of 3 x 10 pixels with 2 samples each and 5 variables.
 Frame frame_of_ten_rows() {
@@ -103,7 +106,7 @@ class CacheSeal : public testing::Test {
   }
   void write(const std::string& content) const { std::ofstream(program_ / "program.bc") << content; }
   bool is_kept() const {
-    clean_cache(folder_.path());
+    remove_damaged(all_programs(folder_.path()));
     return std::filesystem::exists(program_ / "program.bc");
   }
 
@@ -112,12 +115,12 @@ class CacheSeal : public testing::Test {
 };
 
 TEST_F(CacheSeal, KeepsWhatIsSealedAndUnchanged) {
-  seal_cache(folder_.path());
+  seal(all_programs(folder_.path()));
   EXPECT_TRUE(is_kept());
 }
 
 TEST_F(CacheSeal, RemovesWhatChangedSinceItWasSealed) {
-  seal_cache(folder_.path());
+  seal(all_programs(folder_.path()));
   write("BC b program");
   EXPECT_FALSE(is_kept());
 }
@@ -129,10 +132,27 @@ TEST_F(CacheSeal, KeepsUnsealedProgramsUnlessTheyAreVisiblyDamaged) {
 }
 
 TEST_F(CacheSeal, SealsAgainWhenAKernelWasAdded) {
-  seal_cache(folder_.path());
+  seal(all_programs(folder_.path()));
   std::ofstream(program_ / "kernel" / "kernel.so") << "no shared object";
-  seal_cache(folder_.path());
+  seal(all_programs(folder_.path()));
   EXPECT_TRUE(is_kept());
+}
+
+TEST_F(CacheSeal, IndexKnowsTheProgramsOfASource) {
+  const std::filesystem::path other = program_.parent_path() / "other";
+  std::filesystem::create_directories(other);
+  EXPECT_THAT(indexed_programs(folder_.path(), "source"), IsEmpty());
+  index_programs(folder_.path(), "source", {program_});
+  EXPECT_THAT(indexed_programs(folder_.path(), "source"), ElementsAre(program_));
+  EXPECT_THAT(indexed_programs(folder_.path(), "another source"), IsEmpty());
+  index_programs(folder_.path(), "source", {other});
+  EXPECT_THAT(indexed_programs(folder_.path(), "source"), UnorderedElementsAre(program_, other));
+}
+
+TEST_F(CacheSeal, IndexIsNotTrustedWhereAProgramIsMissing) {
+  index_programs(folder_.path(), "source", {program_});
+  std::filesystem::remove_all(program_);
+  EXPECT_THAT(indexed_programs(folder_.path(), "source"), IsEmpty());  // then all programs are checked
 }
 
 TEST(UlpDistance, CountsFloatsBetween) {

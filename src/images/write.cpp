@@ -1,22 +1,23 @@
 // Images out, through OpenImageIO on a writer that loses no error.
+#include "images/images.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "io/atomic_file.h"
 #include "io/attributes.h"
 #include "io/checked_writer.h"
 #include "io/guard.h"
 #include "io/image_formats.h"
 #include "rpf/error.h"
-#include "rpf/io.h"
 
-namespace rpf::io {
+namespace rpf::images {
 namespace {
 
 namespace oiio = OIIO;
+using namespace rpf::io;
 
 // OpenImageIO's window to a CheckedWriter.
 class WriterProxy : public oiio::Filesystem::IOProxy {
@@ -54,16 +55,6 @@ void put_metadata(oiio::ImageSpec& spec, const Metadata& metadata) {
   }
 }
 
-// The part of the description that only EXR can hold.
-void put_windows(oiio::ImageSpec& spec, const Image& image) {
-  spec.x = image.data_window.x;
-  spec.y = image.data_window.y;
-  spec.full_x = image.display_window.x;
-  spec.full_y = image.display_window.y;
-  spec.full_width = image.display_window.width;
-  spec.full_height = image.display_window.height;
-}
-
 oiio::ImageSpec spec_of(const ImageFormat& format, const Image& image, const std::vector<std::size_t>& columns) {
   const bool bytes = format.encoding == Encoding::srgb_bytes;
   oiio::ImageSpec spec(image.data_window.width, image.data_window.height, static_cast<int>(columns.size()),
@@ -77,7 +68,6 @@ oiio::ImageSpec spec_of(const ImageFormat& format, const Image& image, const std
   if (bytes) spec.attribute("oiio:UnassociatedAlpha", 1);
   if (!bytes) put_metadata(spec, image.metadata);
   if (!bytes) spec.attribute("compression", "zip");
-  if (std::string(format.extension) == ".exr") put_windows(spec, image);
   return spec;
 }
 
@@ -117,36 +107,20 @@ void check_written(const std::string& path, const std::string& temporary, const 
     fail_format(path, "it cannot be read back: " + input->geterror());
 }
 
-void check_image(const std::string& path, const Image& image) {
-  if (image.channels.empty() || image.data_window.width <= 0 || image.data_window.height <= 0 ||
-      image.pixels.size() != image.data_window.pixel_count() * image.channel_count())
-    throw Error(ErrorKind::internal,
-                fmt::format("the image for \"{}\" has {} values for {} x {} pixels of {} channels; "
-                            "report this defect",
-                            path, image.pixels.size(), image.data_window.width, image.data_window.height,
-                            image.channel_count()));
-}
-
 }  // namespace
-}  // namespace rpf::io
 
-namespace rpf {
-
-void write_image(const std::string& path, const Image& image) {
-  io::check_image(path, image);
-  io::AtomicFile file(path);  // first: a folder or /dev/full is no question of its extension
-  const io::ImageFormat& format = io::format_of(path);
-  const std::vector<std::size_t> columns = io::columns_of(path, format, image);
-  const OIIO::ImageSpec spec = io::spec_of(format, image, columns);
-  io::CheckedWriter writer(file.descriptor(), path);
-  if (format.encoding == io::Encoding::srgb_bytes)
-    io::encode(path, file.temporary_path(), writer, spec, io::encode_bytes(image, columns).data());
+void write(const std::string& path, const io::AtomicFile& file, const Image& image) {
+  const ImageFormat& format = format_of(path);
+  const std::vector<std::size_t> columns = columns_of(path, format, image);
+  const oiio::ImageSpec spec = spec_of(format, image, columns);
+  CheckedWriter writer(file.descriptor(), path);
+  if (format.encoding == Encoding::srgb_bytes)
+    encode(path, file.temporary_path(), writer, spec, encode_bytes(image, columns).data());
   else if (format.any_channels)
-    io::encode(path, file.temporary_path(), writer, spec, image.pixels.data());
+    encode(path, file.temporary_path(), writer, spec, image.pixels.data());
   else
-    io::encode(path, file.temporary_path(), writer, spec, io::gather_floats(image, columns).data());
-  io::check_written(path, file.temporary_path(), spec);
-  file.commit();
+    encode(path, file.temporary_path(), writer, spec, gather_floats(image, columns).data());
+  check_written(path, file.temporary_path(), spec);
 }
 
-}  // namespace rpf
+}  // namespace rpf::images

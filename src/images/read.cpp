@@ -1,4 +1,6 @@
 // Images in, through OpenImageIO, as linear float.
+#include "images/images.h"
+
 #include <OpenImageIO/imageio.h>
 
 #include <charconv>
@@ -8,13 +10,13 @@
 #include "io/attributes.h"
 #include "io/file_bytes.h"
 #include "io/guard.h"
-#include "rpf/io.h"
 #include "rpf/srgb.h"
 
-namespace rpf::io {
+namespace rpf::images {
 namespace {
 
 namespace oiio = OIIO;
+using namespace rpf::io;
 
 [[noreturn]] void reject(const std::string& path, const std::string& what) {
   throw Error(ErrorKind::input, fmt::format("\"{}\" {}", path, what));
@@ -97,23 +99,20 @@ Image describe(const oiio::ImageSpec& spec, const std::string& format) {
 }
 
 }  // namespace
-}  // namespace rpf::io
 
-namespace rpf {
-
-Image read_image(const std::string& path) {
-  return io::guard_input(path, [&] {
-    const auto input = io::open_image(path);
-    const OIIO::ImageSpec& spec = input->spec();
-    Image image = io::describe(spec, input->format_name());
+Image read(const std::string& path) {
+  return guard_input(path, [&] {
+    const auto input = open_image(path);
+    const oiio::ImageSpec& spec = input->spec();
+    Image image = describe(spec, input->format_name());
     image.pixels.resize(image.data_window.pixel_count() * image.channel_count());
-    const bool done = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, image.pixels.data());
+    const bool done = input->read_image(0, 0, 0, spec.nchannels, oiio::TypeFloat, image.pixels.data());
     // A truncated TIFF is "read" with success and an error waiting.
     if (!done || input->has_error()) throw std::runtime_error(input->geterror());
-    io::to_linear(spec, image);
-    io::multiply_by_alpha(spec, image);
+    to_linear(spec, image);
+    multiply_by_alpha(spec, image);
     return image;
   });
 }
 
-}  // namespace rpf
+}  // namespace rpf::images

@@ -1,0 +1,21 @@
+// The library with OpenImageIO in it, loaded when it is first needed.
+#pragma once
+
+#include <string>
+
+#include "io/atomic_file.h"
+#include "rpf/image.h"
+
+namespace rpf::io {
+
+/// What that library does; images/images.h describes the functions.
+struct ImageLibrary {
+  Image (*read)(const std::string& path);
+  void (*write)(const std::string& path, const AtomicFile& file, const Image& image);
+};
+
+/// Loads librpf_images.so from the program's own folder, or from where it was built. Throws Error(internal) where it is
+/// missing.
+const ImageLibrary& image_library();
+
+}  // namespace rpf::io
