@@ -35,7 +35,8 @@ struct Settings {
   /// Groups of random parameters to model, for example {"lens", "time"}; "pixel" is the position inside the pixel.
   /// Nothing: lens, time and light where the file has them, with pixel in the thesis profile.
   std::optional<std::vector<std::string>> random;
-  /// Groups of features to model, for example {"N", "P"}. Nothing: all that the file has.
+  /// Groups of features to model, for example {"N", "P"}; "first" stands for all groups but those of the second hit
+  /// (N2, P2, ...). Nothing: all that the file has.
   std::optional<std::vector<std::string>> features;
 
   std::uint32_t seed = 1;

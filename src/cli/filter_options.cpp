@@ -67,7 +67,8 @@ void add_model_options(CLI::App& app, FilterOptions& o) {
   app.add_option("--noise", o.settings.noise, "sigma_8^2: 0.02 for very noisy scenes, 0.002 otherwise")
       ->capture_default_str();
   app.add_option("--bins", o.settings.bins, "Histogram bins, odd")->capture_default_str();
-  app.add_option("--features", o.features, "Groups of features to model, or none")
+  app.add_option("--features", o.features,
+                 "Groups of features to model, first (all but those of the second hit), or none")
       ->type_name("LIST")
       ->default_str("all");
   app.add_option("--random", o.random,
