@@ -8,6 +8,7 @@
 #include "frame.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
+#include "spikes.h"
 
 namespace rpf {
 namespace {
@@ -44,7 +45,9 @@ std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, 
   // The buffer that was read becomes the records, unless these are longer; then both exist for a moment.
   const std::uint64_t read = layout.size(), records = facts.variables.count();
   const std::uint64_t floats = records <= read ? read : read + records;
-  return filtering_bytes(size, floats, facts.carried) + make_backend(settings)->scratch_bytes(plan, size.samples);
+  const std::uint64_t steps = plan.spread_spikes ? spikes_bytes(size.pixels) : 0;
+  return filtering_bytes(size, floats, facts.carried) + steps +
+         make_backend(settings)->scratch_bytes(plan, size.samples);
 }
 
 void check_memory(const SampleBuffer& samples, const Settings& settings) {

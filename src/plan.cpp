@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "rpf/error.h"
+#include "spikes.h"
 
 namespace rpf {
 namespace {
@@ -56,11 +57,14 @@ Window grown(const Window& window, int margin, int width, int height) {
   return {x0, y0, x1 - x0, y1 - y0};
 }
 
-/// The last pass filters the crop; each pass before it also what the next one reads around its own region.
+/// The last pass filters the crop; each pass before it also what the next one reads around its own region; all of them
+/// what the steps after them read.
 void plan_regions(Plan& plan, const Window& crop) {
+  const int after_pass = plan.spread_spikes ? spike_reach : 0;
   Window needed = crop;
   for (auto pass = plan.passes.rbegin(); pass != plan.passes.rend(); ++pass) {
-    pass->region = needed;
+    pass->region = grown(needed, after_pass, plan.width, plan.height);
+    needed = pass->region;
     needed = grown(needed, (pass->box_width - 1) / 2, plan.width, plan.height);
   }
 }
@@ -127,6 +131,7 @@ Plan make_plan(const FrameFacts& facts, const Settings& settings) {
   plan.alpha_factor = settings.alpha_factor;
   plan.noise = settings.noise;
   plan.outlier_step = settings.profile == Profile::paper;
+  plan.spread_spikes = settings.spread_spikes;
   for (std::size_t pass = 0; pass < settings.box_widths.size(); ++pass)
     plan.passes.push_back(plan_pass(facts, settings, pass));
   plan_regions(plan, facts.crop);

@@ -62,6 +62,7 @@ struct Plan {
   float alpha_factor = 2;
   float noise = 0.02F;
   bool outlier_step = false;
+  bool spread_spikes = false;
   std::vector<PassPlan> passes;
 };
 

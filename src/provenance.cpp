@@ -17,6 +17,8 @@ std::string neighborhood_text(const Settings& s) {
   return s.max_samples > 0 ? text + fmt::format(", at most {}", s.max_samples) : text;
 }
 
+std::string steps_text(const Settings& s) { return fmt::format("spread-spikes={}", s.spread_spikes); }
+
 std::string choices_text(const Settings& s) {
   return fmt::format(
       "alpha-factor={} position-scale={} redraws={} reject-second-hit={} bias-correction={} clamp-negative={}",
@@ -40,6 +42,7 @@ Metadata provenance(Metadata input, const Settings& settings, const Report& repo
   m["rpf:features"] = list(report.features);
   m["rpf:drawSeed"] = static_cast<std::int32_t>(settings.seed);
   m["rpf:choices"] = choices_text(settings);
+  m["rpf:steps"] = steps_text(settings);
   std::vector<std::string> notes;
   for (const InputNote& note : report.notes)
     notes.push_back(fmt::format("{}: {} (first at pixel {},{})", note.what, note.count, note.x, note.y));

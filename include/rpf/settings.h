@@ -49,6 +49,10 @@ struct Settings {
   bool bias_correction = false;    ///< subtract (B-1)^2 / (2N) from every mutual information
   bool clamp_negative = false;     ///< negative radiance becomes 0
 
+  // Steps beyond thesis and paper (docs/deviations.md).
+  /// After every pass, what makes a pixel brighter than its 8 neighbors is shared with the 5x5 pixels around it.
+  bool spread_spikes = false;
+
   /// Also filter the features with the weights of the color: Result::features.
   bool filter_features = false;
   /// Filter only this part of the data window (coordinates of the data window's own system). The pixels are those of

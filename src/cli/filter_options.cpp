@@ -94,6 +94,13 @@ void add_tuning_options(CLI::App& app, FilterOptions& o) {
   app.add_flag("--clamp-negative", s.clamp_negative, "Negative radiance becomes 0")->group(group);
 }
 
+void add_step_options(CLI::App& app, FilterOptions& o) {
+  const std::string group = "Steps beyond thesis and paper (docs/deviations.md)";
+  app.add_flag("--spread-spikes", o.settings.spread_spikes,
+               "After every pass, share what makes a pixel brighter than its neighbors with those around it")
+      ->group(group);
+}
+
 void add_run_options(CLI::App& app, FilterOptions& o) {
   const std::string group = "Running";
   app.add_option(
@@ -138,6 +145,7 @@ void add_filter_options(CLI::App& app, FilterOptions& options) {
   add_file_options(app, options);
   add_model_options(app, options);
   add_tuning_options(app, options);
+  add_step_options(app, options);
   add_run_options(app, options);
 }
 

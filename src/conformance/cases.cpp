@@ -164,6 +164,7 @@ void add_settings(CaseList& list) {
   for (const int bins : {3, 5, 9, 31}) list.add(fmt::format("bins/{}", bins), [&](Settings& s) { s.bins = bins; });
   list.add("reject-second-hit", [](Settings& s) { s.reject_second_hit = true; });
   list.add("bias-correction", [](Settings& s) { s.bias_correction = true; });
+  list.add("spread-spikes", [](Settings& s) { s.spread_spikes = true; });
 }
 
 /// Sets one channel of every `step`-th sample.

@@ -8,8 +8,10 @@
 #include "conformance/comparison.h"
 #include "cpu/cpu_backend.h"
 #include "opencl/opencl_backend.h"
+#include "resolve.h"
 #include "rpf/filter.h"
 #include "rpf_math.h"
+#include "spikes.h"
 
 namespace rpf {
 namespace {
@@ -85,9 +87,18 @@ class Lockstep {
     device_.run(pass, {region.x, region.y + upper, region.width, region.height - upper});
     reference_.end_pass();
     device_.end_pass();
+    spread(reference_);
+    spread(device_);
     comparison_.at(pass, "whole frame");
     comparison_.statistics(reference_.statistics(), device_.statistics());
     comparison_.values("frame colors", reference_.colors(), device_.colors());
+  }
+
+  /// What the driver does after a pass, so that the next pass is compared on its result.
+  void spread(Backend& backend) const {
+    if (plan_.spread_spikes)
+      spread_spikes(prepared_.frame, resolve(prepared_.frame, backend.colors(), plan_.carried), plan_.carried,
+                    backend.colors_to_change());
   }
 
   PreparedFrame prepared_;
