@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "memory.h"
+#include "polish.h"
 #include "progress_meter.h"
 #include "provenance.h"
 #include "resolve.h"
@@ -107,6 +108,7 @@ class Run {
     backend_->load(prepared_.frame, std::move(prepared_.colors), plan_);
     Pixels pixels = resolved();
     const double plain_energy = energy(pixels, prepared_.facts);
+    const float floor = polish_floor(prepared_.frame, pixels, plan_.carried);
     for (int pass = 0; pass < static_cast<int>(plan_.passes.size()); ++pass) {
       if (before_pass) before_pass(*backend_, plan_, pass);
       PassReport report = run_pass(pass, meter);
@@ -115,6 +117,7 @@ class Run {
       report.energy = kept == plain_energy ? 1 : kept / plain_energy;
       result.report.passes.push_back(report);
     }
+    polish(prepared_.frame, plan_, {floor, threads_, [&](std::size_t done) { meter.add_polished(done); }}, pixels);
     describe(result, pixels);
     result.report.seconds = meter.seconds();
     return result;

@@ -17,7 +17,9 @@ std::string neighborhood_text(const Settings& s) {
   return s.max_samples > 0 ? text + fmt::format(", at most {}", s.max_samples) : text;
 }
 
-std::string steps_text(const Settings& s) { return fmt::format("spread-spikes={}", s.spread_spikes); }
+std::string steps_text(const Settings& s) {
+  return fmt::format("spread-spikes={} polish={}", s.spread_spikes, s.polish);
+}
 
 std::string choices_text(const Settings& s) {
   return fmt::format(

@@ -52,6 +52,9 @@ struct Settings {
   // Steps beyond thesis and paper (docs/deviations.md).
   /// After every pass, what makes a pixel brighter than its 8 neighbors is shared with the 5x5 pixels around it.
   bool spread_spikes = false;
+  /// H of the non-local means that average similar pixels of the result: the relative difference of color that counts
+  /// as noise, such as 0.15. 0: none; else 0.001 .. 10.
+  float polish = 0;
 
   /// Also filter the features with the weights of the color: Result::features.
   bool filter_features = false;

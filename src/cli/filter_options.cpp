@@ -99,6 +99,11 @@ void add_step_options(CLI::App& app, FilterOptions& o) {
   app.add_flag("--spread-spikes", o.settings.spread_spikes,
                "After every pass, share what makes a pixel brighter than its neighbors with those around it")
       ->group(group);
+  app.add_option("--polish", o.settings.polish,
+                 "At the end, average pixels that differ by about this part of their color, such as 0.15; 0: none")
+      ->type_name("H")
+      ->capture_default_str()
+      ->group(group);
 }
 
 void add_run_options(CLI::App& app, FilterOptions& o) {

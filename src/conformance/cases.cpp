@@ -164,7 +164,10 @@ void add_settings(CaseList& list) {
   for (const int bins : {3, 5, 9, 31}) list.add(fmt::format("bins/{}", bins), [&](Settings& s) { s.bins = bins; });
   list.add("reject-second-hit", [](Settings& s) { s.reject_second_hit = true; });
   list.add("bias-correction", [](Settings& s) { s.bias_correction = true; });
-  list.add("spread-spikes", [](Settings& s) { s.spread_spikes = true; });
+  list.add("spread-spikes,polish", [](Settings& s) {
+    s.spread_spikes = true;
+    s.polish = 0.15F;
+  });
 }
 
 /// Sets one channel of every `step`-th sample.

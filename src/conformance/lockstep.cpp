@@ -8,6 +8,7 @@
 #include "conformance/comparison.h"
 #include "cpu/cpu_backend.h"
 #include "opencl/opencl_backend.h"
+#include "polish.h"
 #include "resolve.h"
 #include "rpf/filter.h"
 #include "rpf_math.h"
@@ -66,6 +67,8 @@ class Lockstep {
       trace(pass);
       filter(pass);
     }
+    comparison_.at(static_cast<int>(plan_.passes.size()) - 1, "image");
+    comparison_.values("image", image(reference_), image(device_));
     return std::move(comparison_);
   }
 
@@ -92,6 +95,14 @@ class Lockstep {
     comparison_.at(pass, "whole frame");
     comparison_.statistics(reference_.statistics(), device_.statistics());
     comparison_.values("frame colors", reference_.colors(), device_.colors());
+  }
+
+  std::vector<float> image(const Backend& backend) const {
+    const Frame& frame = prepared_.frame;
+    std::vector<float> pixels = resolve(frame, backend.colors(), plan_.carried);
+    const float floor = polish_floor(frame, resolve(frame, prepared_.colors, plan_.carried), plan_.carried);
+    polish(frame, plan_, {floor, 1, {}}, pixels);
+    return pixels;
   }
 
   /// What the driver does after a pass, so that the next pass is compared on its result.

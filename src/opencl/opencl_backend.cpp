@@ -211,11 +211,6 @@ void OpenClBackend::end_pass() {
   colors_.swap(next_colors_);
 }
 
-std::vector<float>& OpenClBackend::colors_to_change() {
-  band_.reset();  // it holds the colors as they were
-  return colors_;
-}
-
 std::uint64_t OpenClBackend::scratch_bytes(const Plan& plan, std::uint64_t samples) const {
   const std::uint64_t laid_out = samples * SampleFloats(plan).chunks * sizeof(float);
   return items_ * ScratchSizes(plan).bytes() + std::min(laid_out, most_band_bytes);

@@ -18,7 +18,9 @@ struct Step {
   std::function<void(Settings&)> set;
 };
 
-const std::vector<Step> steps = {{"spikes", [](Settings& s) { s.spread_spikes = true; }}};
+const std::vector<Step> steps = {{"spikes", [](Settings& s) { s.spread_spikes = true; }},
+                                 {"polish", [](Settings& s) { s.polish = 0.15F; }},
+                                 {"both", [](Settings& s) { s.spread_spikes = true, s.polish = 0.15F; }}};
 
 Settings with(const Step& step) {
   Settings settings = test::small_settings();
