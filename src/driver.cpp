@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "memory.h"
+#include "polish.h"
 #include "progress_meter.h"
 #include "provenance.h"
 #include "resolve.h"
 #include "rpf/error.h"
+#include "spikes.h"
 
 namespace rpf {
 namespace {
@@ -112,6 +114,7 @@ class Run {
     backend_->load(prepared_.frame, std::move(prepared_.colors), plan_);
     Pixels pixels = resolved();
     const double plain_energy = energy(pixels, prepared_.facts);
+    const float floor = polish_floor(prepared_.frame, pixels, plan_.carried);
     for (int pass = 0; pass < static_cast<int>(plan_.passes.size()); ++pass) {
       if (before_pass) before_pass(*backend_, plan_, pass);
       PassReport report = run_pass(pass, meter);
@@ -120,6 +123,7 @@ class Run {
       report.energy = kept == plain_energy ? 1 : kept / plain_energy;
       result.report.passes.push_back(report);
     }
+    polish(prepared_.frame, plan_, {floor, threads_, [&](std::size_t done) { meter.add_polished(done); }}, pixels);
     describe(result, pixels);
     result.report.seconds = meter.seconds();
     return result;
@@ -139,6 +143,7 @@ class Run {
       meter.add(pass, tile.pixel_count());
     }
     backend_->end_pass();
+    if (plan_.spread_spikes) spread_spikes(prepared_.frame, resolved(), plan_.carried, backend_->colors_to_change());
     PassReport report = summarize(backend_->statistics(), prepared_.frame, plan);
     report.seconds = meter.seconds() - start;
     return report;

@@ -6,8 +6,10 @@
 
 #include "backend.h"
 #include "frame.h"
+#include "polish.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
+#include "spikes.h"
 
 namespace rpf {
 namespace {
@@ -44,7 +46,10 @@ std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, 
   // The buffer that was read becomes the records, unless these are longer; then both exist for a moment.
   const std::uint64_t read = layout.size(), records = facts.variables.count();
   const std::uint64_t floats = records <= read ? read : read + records;
-  return filtering_bytes(size, floats, facts.carried) + make_backend(settings)->scratch_bytes(plan, size.samples);
+  const std::uint64_t steps =
+      (plan.spread_spikes ? spikes_bytes(size.pixels) : 0) + polish_bytes(plan, thread_count(settings));
+  return filtering_bytes(size, floats, facts.carried) + steps +
+         make_backend(settings)->scratch_bytes(plan, size.samples);
 }
 
 void check_memory(const SampleBuffer& samples, const Settings& settings) {

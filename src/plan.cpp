@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "polish.h"
 #include "rpf/error.h"
+#include "spikes.h"
 
 namespace rpf {
 namespace {
@@ -60,11 +62,15 @@ Window grown(const Window& window, int margin, int width, int height) {
   return {x0, y0, x1 - x0, y1 - y0};
 }
 
-/// The last pass filters the crop; each pass before it also what the next one reads around its own region.
+/// The last pass filters the crop and what polishing it reads; each pass before it also what the next one reads around
+/// its own region; all of them what the steps after them read.
 void plan_regions(Plan& plan, const Window& crop) {
-  Window needed = crop;
+  const int after_pass = plan.spread_spikes ? spike_reach : 0;
+  plan.polished = crop;
+  Window needed = grown(crop, plan.polish > 0 ? polish_reach : 0, plan.width, plan.height);
   for (auto pass = plan.passes.rbegin(); pass != plan.passes.rend(); ++pass) {
-    pass->region = needed;
+    pass->region = grown(needed, after_pass, plan.width, plan.height);
+    needed = pass->region;
     needed = grown(needed, (pass->box_width - 1) / 2, plan.width, plan.height);
   }
 }
@@ -113,6 +119,8 @@ void validate(const Settings& s) {
   require(s.position_scale >= 1e-6F && s.position_scale <= 1e6F,
           fmt::format("position scale {}: a number from 1e-6 to 1e6 is expected", s.position_scale));
   require(s.redraws >= 0 && s.redraws <= 15, fmt::format("redraws {}: a number from 0 to 15 is expected", s.redraws));
+  require(s.polish == 0 || (s.polish >= 1e-3F && s.polish <= 10),
+          fmt::format("polish {}: 0 or a number from 0.001 to 10 is expected, such as 0.15", s.polish));
   require(s.threads >= 0, fmt::format("threads {}: a positive number is expected, or 0 for all cores", s.threads));
 }
 
@@ -138,6 +146,8 @@ Plan make_plan(const FrameFacts& facts, const Settings& settings) {
   plan.alpha_factor = settings.alpha_factor;
   plan.noise = settings.noise;
   plan.outlier_step = settings.profile == Profile::paper;
+  plan.spread_spikes = settings.spread_spikes;
+  plan.polish = settings.polish;
   for (std::size_t pass = 0; pass < settings.box_widths.size(); ++pass)
     plan.passes.push_back(plan_pass(facts, settings, pass));
   plan_regions(plan, facts.crop);

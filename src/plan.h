@@ -65,7 +65,10 @@ struct Plan {
   float alpha_factor = 2;
   float noise = 0.02F;
   bool outlier_step = false;
+  bool spread_spikes = false;
+  float polish = 0;  ///< H; 0: no polish
   std::vector<PassPlan> passes;
+  Window polished;  ///< pixels to polish, frame coordinates
 };
 
 /// Whether a group of features is of the second hit: its name ends in 2, as in "N2".

@@ -10,6 +10,9 @@ namespace {
 /// The fixed cost of a pixel (histograms of all pairs) in units of a neighbor's cost.
 constexpr double fixed_cost = 100;
 
+/// The cost of polishing a pixel, in the same unit.
+constexpr double polish_cost = 4;
+
 }  // namespace
 
 std::size_t tile_pixels(std::uint32_t neighbors, int threads) {
@@ -24,6 +27,7 @@ ProgressMeter::ProgressMeter(const Plan& plan, const Control& control)
     pixel_cost_.push_back(fixed_cost + pass.max_neighbors);
     total_ += pixel_cost_.back() * static_cast<double>(pass.region.pixel_count());
   }
+  if (plan.polish > 0) total_ += polish_cost * static_cast<double>(plan.polished.pixel_count());
 }
 
 double ProgressMeter::seconds() const {
@@ -32,6 +36,15 @@ double ProgressMeter::seconds() const {
 
 void ProgressMeter::add(int pass, std::size_t pixels) {
   done_ += pixel_cost_[static_cast<std::size_t>(pass)] * static_cast<double>(pixels);
+  tell(pass);
+}
+
+void ProgressMeter::add_polished(std::size_t pixels) {
+  done_ += polish_cost * static_cast<double>(pixels);
+  tell(passes_ - 1);
+}
+
+void ProgressMeter::tell(int pass) {
   if (!control_.progress) return;
   Progress progress;
   progress.pass = pass;

@@ -17,9 +17,13 @@ class ProgressMeter {
 
   /// Counts pixels of a pass as done and tells the caller. Throws Error(cancelled) where the caller wants to stop.
   void add(int pass, std::size_t pixels);
+  /// The same for the polish.
+  void add_polished(std::size_t pixels);
   double seconds() const;
 
  private:
+  void tell(int pass);
+
   const Control& control_;
   int passes_ = 0;
   std::vector<double> pixel_cost_;  ///< [pass] relative

@@ -18,6 +18,10 @@ std::string neighborhood_text(const Settings& s) {
   return s.neighbors_factor ? text + fmt::format(", until {} b^2 are accepted", *s.neighbors_factor) : text;
 }
 
+std::string steps_text(const Settings& s) {
+  return fmt::format("spread-spikes={} polish={}", s.spread_spikes, s.polish);
+}
+
 std::string choices_text(const Settings& s) {
   return fmt::format(
       "statistics-block={} statistics-samples={} alpha-factor={} position-scale={} redraws={} reject-second-hit={} "
@@ -43,6 +47,7 @@ Metadata provenance(Metadata input, const Settings& settings, const Report& repo
   m["rpf:features"] = list(report.features);
   m["rpf:drawSeed"] = static_cast<std::int32_t>(settings.seed);
   m["rpf:choices"] = choices_text(settings);
+  m["rpf:steps"] = steps_text(settings);
   std::vector<std::string> notes;
   for (const InputNote& note : report.notes)
     notes.push_back(fmt::format("{}: {} (first at pixel {},{})", note.what, note.count, note.x, note.y));

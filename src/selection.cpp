@@ -10,6 +10,7 @@ namespace rpf {
 namespace {
 
 constexpr const char* all_groups = "all";
+constexpr const char* first_hit_groups = "first";
 constexpr const char* inside_pixel = "pixel";
 
 using Groups = std::vector<std::string>;
@@ -30,6 +31,16 @@ std::vector<std::string> slots_where(const SampleLayout& layout, Predicate predi
   std::vector<std::string> slots;
   std::copy_if(layout.slots.begin(), layout.slots.end(), std::back_inserter(slots), predicate);
   return slots;
+}
+
+/// Puts the groups of the first hit in the place of the word for them.
+Groups without_first_hit_word(Groups wanted, const std::vector<std::string>& slots) {
+  const auto word = std::find(wanted.begin(), wanted.end(), first_hit_groups);
+  if (word == wanted.end()) return wanted;
+  wanted.erase(word);
+  for (const std::string& group : groups_of(slots))
+    if (!is_second_hit(group)) wanted.push_back(group);
+  return wanted;
 }
 
 /// The slots of the wanted groups, in the layout's order. `kind` is for the error text.
@@ -70,7 +81,8 @@ Selection select_channels(const SampleLayout& layout, const Settings& settings) 
   if (contains(settings.features.value_or(Groups{}), inside_pixel))
     throw Error(ErrorKind::usage,
                 "feature 'pixel' is not a feature; --random pixel models the position inside the pixel");
-  selection.features = pick(features, settings.features.value_or(Groups{all_groups}), "feature");
+  const Groups wanted_features = settings.features.value_or(Groups{all_groups});
+  selection.features = pick(features, without_first_hit_word(wanted_features, features), "feature");
   // Second hits take no part in the rejection test: behind the others they need not be read for it.
   std::stable_partition(selection.features.begin(), selection.features.end(),
                         [](const std::string& slot) { return !is_second_hit(group_of(slot)); });

@@ -42,7 +42,8 @@ struct Settings {
   /// Groups of random parameters to model, for example {"lens", "time"}; "pixel" is the position inside the pixel.
   /// Nothing: lens, time and light where the file has them, with pixel in the thesis profile.
   std::optional<std::vector<std::string>> random;
-  /// Groups of features to model, for example {"N", "P"}. Nothing: all that the file has.
+  /// Groups of features to model, for example {"N", "P"}; "first" stands for all groups but those of the second hit
+  /// (N2, P2, ...). Nothing: all that the file has.
   std::optional<std::vector<std::string>> features;
 
   std::uint32_t seed = 1;
@@ -54,6 +55,13 @@ struct Settings {
   bool reject_second_hit = false;  ///< features of the second hit (N2, P2, ...) take part in the rejection test
   bool bias_correction = false;    ///< subtract (B-1)^2 / (2N) from every mutual information
   bool clamp_negative = false;     ///< negative radiance becomes 0
+
+  // Steps beyond thesis and paper (docs/deviations.md).
+  /// After every pass, what makes a pixel brighter than its 8 neighbors is shared with the 5x5 pixels around it.
+  bool spread_spikes = false;
+  /// H of the non-local means that average similar pixels of the result: the relative difference of color that counts
+  /// as noise, such as 0.15. 0: none; else 0.001 .. 10.
+  float polish = 0;
 
   /// Also filter the features with the weights of the color: Result::features.
   bool filter_features = false;

@@ -76,7 +76,8 @@ void add_model_options(CLI::App& app, FilterOptions& o) {
   app.add_option("--noise", o.settings.noise, "sigma_8^2: 0.02 for very noisy scenes, 0.002 otherwise")
       ->capture_default_str();
   app.add_option("--bins", o.settings.bins, "Histogram bins, odd")->capture_default_str();
-  app.add_option("--features", o.features, "Groups of features to model, or none")
+  app.add_option("--features", o.features,
+                 "Groups of features to model, first (all but those of the second hit), or none")
       ->type_name("LIST")
       ->default_str("all");
   app.add_option("--random", o.random,
@@ -100,6 +101,18 @@ void add_tuning_options(CLI::App& app, FilterOptions& o) {
       ->group(group);
   app.add_flag("--bias-correction", s.bias_correction, "Subtract the bias of the mutual information")->group(group);
   app.add_flag("--clamp-negative", s.clamp_negative, "Negative radiance becomes 0")->group(group);
+}
+
+void add_step_options(CLI::App& app, FilterOptions& o) {
+  const std::string group = "Steps beyond thesis and paper (docs/deviations.md)";
+  app.add_flag("--spread-spikes", o.settings.spread_spikes,
+               "After every pass, share what makes a pixel brighter than its neighbors with those around it")
+      ->group(group);
+  app.add_option("--polish", o.settings.polish,
+                 "At the end, average pixels that differ by about this part of their color, such as 0.15; 0: none")
+      ->type_name("H")
+      ->capture_default_str()
+      ->group(group);
 }
 
 void add_run_options(CLI::App& app, FilterOptions& o) {
@@ -146,6 +159,7 @@ void add_filter_options(CLI::App& app, FilterOptions& options) {
   add_file_options(app, options);
   add_model_options(app, options);
   add_tuning_options(app, options);
+  add_step_options(app, options);
   add_run_options(app, options);
 }
 

@@ -186,6 +186,10 @@ void add_settings(CaseList& list) {
   add_shared_statistics(list);
   list.add("reject-second-hit", [](Settings& s) { s.reject_second_hit = true; });
   list.add("bias-correction", [](Settings& s) { s.bias_correction = true; });
+  list.add("spread-spikes,polish", [](Settings& s) {
+    s.spread_spikes = true;
+    s.polish = 0.15F;
+  });
 }
 
 /// Sets one channel of every `step`-th sample.

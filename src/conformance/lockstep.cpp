@@ -8,8 +8,11 @@
 #include "conformance/comparison.h"
 #include "cpu/cpu_backend.h"
 #include "opencl/opencl_backend.h"
+#include "polish.h"
+#include "resolve.h"
 #include "rpf/filter.h"
 #include "rpf_math.h"
+#include "spikes.h"
 
 namespace rpf {
 namespace {
@@ -64,6 +67,8 @@ class Lockstep {
       trace(pass);
       filter(pass);
     }
+    comparison_.at(static_cast<int>(plan_.passes.size()) - 1, "image");
+    comparison_.values("image", image(reference_), image(device_));
     return std::move(comparison_);
   }
 
@@ -85,9 +90,26 @@ class Lockstep {
     device_.run(pass, {region.x, region.y + upper, region.width, region.height - upper});
     reference_.end_pass();
     device_.end_pass();
+    spread(reference_);
+    spread(device_);
     comparison_.at(pass, "whole frame");
     comparison_.statistics(reference_.statistics(), device_.statistics());
     comparison_.values("frame colors", reference_.colors(), device_.colors());
+  }
+
+  std::vector<float> image(const Backend& backend) const {
+    const Frame& frame = prepared_.frame;
+    std::vector<float> pixels = resolve(frame, backend.colors(), plan_.carried);
+    const float floor = polish_floor(frame, resolve(frame, prepared_.colors, plan_.carried), plan_.carried);
+    polish(frame, plan_, {floor, 1, {}}, pixels);
+    return pixels;
+  }
+
+  /// What the driver does after a pass, so that the next pass is compared on its result.
+  void spread(Backend& backend) const {
+    if (plan_.spread_spikes)
+      spread_spikes(prepared_.frame, resolve(prepared_.frame, backend.colors(), plan_.carried), plan_.carried,
+                    backend.colors_to_change());
   }
 
   PreparedFrame prepared_;

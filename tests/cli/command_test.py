@@ -107,9 +107,10 @@ class CommandTest(unittest.TestCase):
         self.assertEqual(sorted(p.name for p in folder.iterdir()), ["N.exr", "P.exr", "albedo.exr"])
 
     def test_records_how_an_image_was_made(self):
-        self.expect(run(EXAMPLE, "-o", self.output, "--seed", "7", *QUICK), 0)
+        self.expect(run(EXAMPLE, "-o", self.output, "--seed", "7", "--spread-spikes", "--polish", "0.15", *QUICK), 0)
         header = self.output.read_bytes()[:4096]
-        for name in (b"rpf:software", b"rpf:profile", b"rpf:boxes", b"rpf:noise", b"rpf:drawSeed"):
+        for name in (b"rpf:software", b"rpf:profile", b"rpf:boxes", b"rpf:noise", b"rpf:drawSeed", b"rpf:steps",
+                     b"spread-spikes=true polish=0.15"):
             self.assertIn(name, header)
 
     def test_starts_without_the_libraries_of_other_image_formats(self):
@@ -210,7 +211,8 @@ class CommandTest(unittest.TestCase):
                                 ([EXAMPLE, "-o", self.output, "--crop", "9x9"], "--crop 9x9"),
                                 ([EXAMPLE, "-o", self.output, "--crop", "9x9+9999+0"], "not inside"),
                                 ([EXAMPLE, "-o", self.output, "--map", "feature.N.X"], "SLOT=CHANNEL"),
-                                ([EXAMPLE, "-o", self.output, "--noise", "0"], "noise"), ([EXAMPLE, "--nonsense"], "nonsense"),
+                                ([EXAMPLE, "-o", self.output, "--noise", "0"], "noise"),
+                                ([EXAMPLE, "-o", self.output, "--polish", "11"], "polish 11"), ([EXAMPLE, "--nonsense"], "nonsense"),
                                 ([EXAMPLE, "-o", self.output, "--backend", "abacus"], "abacus")):
             with self.subTest(text=text):
                 self.expect(run(*arguments), 2, text)

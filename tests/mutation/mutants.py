@@ -12,6 +12,7 @@ WEIGHTING, BACKEND = "src/cpu/weighting.cpp", "src/cpu/cpu_backend.cpp"
 PLAN, TABLES, CLEAN = "src/plan.cpp", "src/tables.cpp", "src/clean.cpp"
 PREPARE, DRIVER, RESOLVE = "src/prepare.cpp", "src/driver.cpp", "src/resolve.cpp"
 MERGE, RAW_READER, HDR_FLIP = "src/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
+SELECTION, SPIKES, POLISH_TILE = "src/selection.cpp", "src/spikes.cpp", "src/polish_tile.cpp"
 SCENE = "src/scene/"
 BOTH = "Profiles/BothProfiles."
 
@@ -264,6 +265,32 @@ MUTANTS = [
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "tiles: the last band is skipped"),
     Mutant("crop_margin", PLAN, "(pass->box_width - 1) / 2", "(pass->box_width - 1) / 2 - 1",
            BOTH + "GivesTheSamePixelsForACrop/*", "crop: margin one pixel short"),
+
+    # ---------------------------------------------------------------- steps beyond the sources
+    Mutant("first_hit", SELECTION, "if (!is_second_hit(group)) wanted", "wanted",
+           "Selection.LeavesOutSecondHitsOnRequest", "selection: `first` is `all`"),
+    Mutant("spikes_left_out", DRIVER, "if (plan_.spread_spikes)", "if (false)",
+           "Filter.StepsChangeTheImageOfTheTestFrame", "spikes: not spread"),
+    Mutant("spikes_margin", PLAN, "plan.spread_spikes ? spike_reach : 0", "plan.spread_spikes ? spike_spread : 0",
+           "Filter.StepsGiveTheSamePixelsForACrop", "spikes: a crop's margin one pixel short"),
+    Mutant("spikes_share", SPIKES, "static_cast<float>(receivers)", "25.0F",
+           "Spikes.AreFoundBeforeAnyIsSpread", "spikes: light is lost at the border"),
+    Mutant("spikes_below_black", SPIKES, "std::max(brightest / own, 0.0F)", "brightest / own",
+           "Spikes.LoseAllTheirLightAmongNegativeNeighborsNotMore", "spikes: more is taken than there is"),
+    Mutant("spikes_empty_pixels", SPIKES, "if (frame_.samples(pixel(u, v)) > 0) visit", "visit",
+           "Spikes.LeaveOutEmptyPixelsAndRespectCountsAndWeights", "spikes: empty pixels get light"),
+    Mutant("polish_margin", PLAN, "plan.polish > 0 ? polish_reach : 0", "plan.polish > 0 ? polish_radius : 0",
+           "Filter.StepsGiveTheSamePixelsForACrop", "polish: a crop's margin one pixel short"),
+    Mutant("polish_border", POLISH_TILE, "places[x] = p[x] * q[x];", "places[x] = p[x] * q[x] + 1.0F;",
+           "Polish.AveragesTwoPixelsByHand", "polish: patches outside the image count"),
+    Mutant("polish_guides", POLISH_TILE, 'group == "N" || group == "albedo"', 'group == "N"',
+           "Polish.KeepsAnEdgeThatAGuideShowsAndNoOther", "polish: albedo does not guard edges"),
+    Mutant("polish_guide_noise", POLISH_TILE, "(apart * apart - variance)", "(apart * apart)",
+           "Polish.IsItsDefinition", "polish: noise of a guide counts as an edge"),
+    Mutant("polish_empty_pixels", POLISH_TILE, "* valid[x];", "* (valid[x] + 1.0F);",
+           "Polish.LeavesOutEmptyPixels", "polish: pixels without samples are averaged"),
+    Mutant("polish_floor", "src/polish.cpp", "count += 3;", "count += 1;",
+           "Polish.HasAFloorOfAPartOfTheMeanRadiance", "polish: another floor"),
 
     # ---------------------------------------------------------------- files: merging and raw samples
     Mutant("merge_order", MERGE, "merged.record(next[p]));\n    next[p] += count;", "merged.record(next[p]));",

@@ -33,6 +33,19 @@ TEST(Selection, FollowsTheUser) {
   EXPECT_TRUE(select_channels(layout, settings).features.empty());
 }
 
+TEST(Selection, LeavesOutSecondHitsOnRequest) {
+  const SampleLayout both{{"R", "G", "B", "film.X", "film.Y", "random.lens2.U", "feature.N.X", "feature.N2.X",
+                           "feature.depth", "feature.P2.X", "feature.P.X"}};
+  Settings settings;
+  settings.features = Slots{"first"};
+  EXPECT_EQ(select_channels(both, settings).features, (Slots{"feature.N.X", "feature.depth", "feature.P.X"}));
+  settings.features = Slots{"first", "P2"};
+  EXPECT_EQ(select_channels(both, settings).features,
+            (Slots{"feature.N.X", "feature.depth", "feature.P.X", "feature.P2.X"}));
+  settings.random = Slots{"first"};  // a word for features only
+  EXPECT_THROW(select_channels(both, settings), Error);
+}
+
 TEST(Selection, NamesWhatIsThereWhenAGroupIsNot) {
   Settings settings;
   settings.features = Slots{"albedo"};
