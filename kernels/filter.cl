@@ -120,7 +120,7 @@ static void filter_member(const Frame* frame, const rpf_pass* pass, uint pixel, 
   rpf_pixel_statistics statistics = {0, 0, 0.0f, 0.0f, 0.0f};
   if (own > 0) {
     statistics.neighbors = fill_neighborhood(frame, pass, pixel, slot, trace, &statistics.drawn);
-    if (measures && RPF_PHASES > 3) weigh(frame, pass, statistics.neighbors, slot, trace, weights);
+    if (measures) weigh(frame, pass, statistics.neighbors, slot, trace, weights);
     statistics.fraction_random = weights->color.fraction_random;
     statistics.alpha = rpf_mean(weights->color.alpha, 3);
     statistics.beta = rpf_mean(weights->beta, RPF_FEATURES);
@@ -149,7 +149,7 @@ static void filter_block(const Frame* frame, const rpf_pass* pass, Area block, A
   for (int y = wanted.y; y < wanted.end_y; ++y)
     for (int x = wanted.x; x < wanted.end_x; ++x) {
       const uint pixel = (uint)(y * pass->width + x);
-      filter_member(frame, pass, pixel, pixel == leader, slot, &weights, trace, output);
+      filter_member(frame, pass, pixel, RPF_PHASES > 3 ? pixel == leader : 0, slot, &weights, trace, output);
     }
 }
 

@@ -61,11 +61,9 @@ bench::SweepSetting setting_of(const std::string& text) {
 }
 
 bench::FrameJob job_of(const bench::SweepFrame& frame, const bench::SweepSetting& setting) {
-  CLI::App parser;
   FilterOptions options;
-  add_filter_options(parser, options);
   try {
-    parser.parse(setting.options, false);
+    options = parse_filter_options(CLI::detail::split_up(setting.options));
   } catch (const CLI::ParseError& e) {
     throw Error(ErrorKind::usage, fmt::format("setting \"{}\": {}", setting.name, e.what()));
   }
@@ -91,12 +89,8 @@ void show_status(const std::string& text) {
 double kept_energy(const Report& report) { return report.passes.empty() ? 1 : report.passes.back().energy; }
 
 Json json_of(const bench::FrameRun& run) {
-  Json json{{"cpu", run.cost.cpu},
-            {"wall", run.cost.wall},
-            {"energy", kept_energy(run.report)},
-            {"backend", run.report.backend},
-            {"random", run.report.random},
-            {"features", run.report.features}};
+  Json json{{"cpu", run.cost.cpu},           {"wall", run.cost.wall},       {"energy", kept_energy(run.report)},
+            {"backend", run.report.backend}, {"random", run.report.random}, {"features", run.report.features}};
   for (const PassReport& pass : run.report.passes)
     json["passes"].push_back({{"box", pass.box_width},
                               {"neighbors", pass.neighbors},

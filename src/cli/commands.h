@@ -3,13 +3,16 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace rpf::cli {
 
 /// Runs a command; returns the exit code.
 using Command = std::function<int()>;
 
-Command add_filter_command(CLI::App& app);    ///< rpf INPUT -o OUTPUT
+/// rpf INPUT -o OUTPUT. `arguments`: those of the command line, for what depends on them before and after parsing.
+Command add_filter_command(CLI::App& app, const std::vector<std::string>& arguments);
 Command add_info_command(CLI::App& app);      ///< rpf info FILE
 Command add_compare_command(CLI::App& app);   ///< rpf compare IMAGE... REFERENCE
 Command add_merge_command(CLI::App& app);     ///< rpf merge FILE FILE... -o FILE

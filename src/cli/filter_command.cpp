@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 #include <sys/resource.h>
 
+#include <chrono>
 #include <filesystem>
 
 #include "cli/commands.h"
@@ -11,6 +12,7 @@
 #include "cli/signals.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
+#include "rpf/presets.h"
 
 namespace rpf::cli {
 namespace {
@@ -111,9 +113,23 @@ void check_usage(const FilterOptions& options) {
     throw Error(ErrorKind::usage, "no output: name the image to write with -o, as in -o filtered.exr");
 }
 
-int run(const FilterOptions& options) {
+/// The settings of the preset that fits into what is left of the time budget, with the options given beside it.
+Settings settings_within(double seconds, const SampleBuffer& samples, const Settings& settings,
+                         const FilterOptions& options, const std::vector<std::string>& arguments) {
+  const auto times =
+      with_progress("never", [&](const Control& control) { return predict_presets(samples, settings, control); });
+  const PresetTime best = best_within(times, seconds);
+  if (!options.quiet)
+    fmt::print("preset {}: predicted to take {:.2g} s{}\n", best.name, best.seconds,
+               best.seconds > seconds ? ", more than the time budget; none is faster" : "");
+  return settings_of(parse_filter_options(arguments, best.name));
+}
+
+int run(const FilterOptions& options, const std::vector<std::string>& arguments) {
+  const auto begin = std::chrono::steady_clock::now();
   check_usage(options);
-  const Settings settings = settings_of(options);
+  const double budget = time_budget_of(options);
+  Settings settings = settings_of(options);
   const SampleReadOptions read_options = read_options_of(options.map, settings.max_memory);
   const SampleFileInfo info = inspect_samples(options.input, read_options);
   check_budget(info, settings, options.verbose || options.dry_run);
@@ -124,6 +140,10 @@ int run(const FilterOptions& options) {
   const double start = cpu_seconds();
   SampleBuffer samples = read_samples(options.input, read_options);
   const double read = cpu_seconds();
+  if (budget > 0) {
+    const double used = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    settings = settings_within(budget - used, samples, settings, options, arguments);
+  }
   const Result result = with_progress(options.quiet ? "never" : options.progress, [&](const Control& control) {
     return filter(std::move(samples), settings, control);
   });
@@ -140,10 +160,12 @@ int run(const FilterOptions& options) {
 
 }  // namespace
 
-Command add_filter_command(CLI::App& app) {
+Command add_filter_command(CLI::App& app, const std::vector<std::string>& arguments) {
   auto options = std::make_shared<FilterOptions>();
+  const std::string preset = preset_in(arguments);
+  if (!preset.empty()) start_from_preset(preset, *options);
   add_filter_options(app, *options);
-  return [options] { return run(*options); };
+  return [options, arguments] { return run(*options, arguments); };
 }
 
 }  // namespace rpf::cli

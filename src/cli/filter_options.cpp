@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <map>
 
 #include "cli/environment.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
+#include "rpf/presets.h"
 
 namespace rpf::cli {
 namespace {
@@ -53,7 +55,21 @@ void add_file_options(CLI::App& app, FilterOptions& o) {
   add_map_option(app, o.map);
 }
 
+void add_preset_option(CLI::App& app, std::string& preset) {
+  std::vector<std::string> names;
+  std::string text = "Settings to start from; options given beside it win";
+  for (const PresetInfo& info : presets()) {
+    names.push_back(info.name);
+    text += fmt::format("\n{}: {}", info.name, info.purpose);
+  }
+  app.add_option("--preset", preset, text)->check(CLI::IsMember(names));
+}
+
 void add_model_options(CLI::App& app, FilterOptions& o) {
+  add_preset_option(app, o.preset);
+  app.add_option("--time-budget", o.time_budget,
+                 "Take the most accurate preset that is predicted to be done in this time, such as 10s, 500ms or 2m")
+      ->excludes("--preset");
   app.add_option("--profile", o.profile,
                  "thesis: M = b^2/2 samples a neighborhood; paper: M = b^2 s/2 and the outlier step")
       ->check(CLI::IsMember({"thesis", "paper"}))
@@ -161,6 +177,44 @@ void add_filter_options(CLI::App& app, FilterOptions& options) {
   add_tuning_options(app, options);
   add_step_options(app, options);
   add_run_options(app, options);
+}
+
+std::string preset_in(const std::vector<std::string>& arguments) {
+  CLI::App app;
+  app.allow_extras();
+  app.set_help_flag();
+  std::string preset;
+  app.add_option("--preset", preset);
+  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+  app.parse(reversed);
+  return preset;
+}
+
+void start_from_preset(const std::string& preset, FilterOptions& options) {
+  options.settings = preset_settings(preset);
+  options.profile = options.settings.profile == Profile::paper ? "paper" : "thesis";
+}
+
+FilterOptions parse_filter_options(const std::vector<std::string>& arguments, const std::string& preset) {
+  CLI::App app;
+  FilterOptions options;
+  const std::string named = preset.empty() ? preset_in(arguments) : preset;
+  if (!named.empty()) start_from_preset(named, options);
+  add_filter_options(app, options);
+  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+  app.parse(reversed);
+  return options;
+}
+
+double time_budget_of(const FilterOptions& options) {
+  if (options.time_budget.empty()) return 0;
+  char* unit = nullptr;
+  const double number = std::strtod(options.time_budget.c_str(), &unit);
+  const std::map<std::string, double> seconds = {{"", 1}, {"s", 1}, {"ms", 1e-3}, {"m", 60}, {"h", 3600}};
+  const auto found = seconds.find(unit);
+  if (found == seconds.end() || !(number > 0) || number > 1e9)
+    refuse("--time-budget", options.time_budget, "a time above 0 is expected, such as 10s, 500ms or 2m");
+  return number * found->second;
 }
 
 Window window_of(const std::string& option, const std::string& text) {

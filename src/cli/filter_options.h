@@ -17,14 +17,27 @@ struct FilterOptions {
   std::vector<std::string> map;
   std::uint64_t max_memory_mb = 0;  ///< 0: not given
   std::string progress = "auto";
+  std::string preset, time_budget;
   bool verbose = false, quiet = false, dry_run = false;
   Settings settings;  ///< the options that need no translation
 };
 
 void add_filter_options(CLI::App& app, FilterOptions& options);
 
+/// What --preset among these arguments names; empty without it.
+std::string preset_in(const std::vector<std::string>& arguments);
+
+/// Makes a preset's settings what the options are where they are not given: to be called before the parser runs.
+/// Throws Error(usage) for an unknown preset.
+void start_from_preset(const std::string& preset, FilterOptions& options);
+
+/// Parses the options of a filter run alone, with a preset to start from; empty: none but what --preset says. Throws
+/// CLI::ParseError, and Error(usage) for an unknown preset.
+FilterOptions parse_filter_options(const std::vector<std::string>& arguments, const std::string& preset = {});
+
 /// Translates the options. Throw Error(usage) that names the option.
 Settings settings_of(const FilterOptions& options);
+double time_budget_of(const FilterOptions& options);  ///< seconds; 0 where none is given
 SampleReadOptions read_options_of(const std::vector<std::string>& map, std::uint64_t max_memory);
 
 /// WxH+X+Y as oiiotool writes it; X and Y may be negative (100x50-7+3).

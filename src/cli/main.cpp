@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char* footer = R"(Examples:
   rpf render.samples.exr -o filtered.exr
-  rpf --boxes 21,11,5 --samples-factor 2 --noise 0.002 render.samples.exr -o filtered.png
+  rpf --preset high render.samples.exr -o filtered.png
+  rpf --time-budget 10s render.samples.exr -o filtered.exr
   rpf --backend=auto render.samples.exr -o filtered.exr
   rpf info render.samples.exr
   rpf compare before.exr filtered.exr reference.exr --side-by-side picture.png
@@ -32,7 +33,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string("rpf ") + version());
   app.footer(footer);
   app.require_subcommand(0, 1);
-  const Command filter_command = add_filter_command(app);
+  const Command filter_command = add_filter_command(app, {argv + 1, argv + argc});
   const std::pair<const char*, Command> subcommands[] = {
       {"info", add_info_command(app)},         {"compare", add_compare_command(app)},
       {"merge", add_merge_command(app)},       {"convert", add_convert_command(app)},

@@ -1,0 +1,142 @@
+#include "rpf/presets.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "rpf/error.h"
+
+namespace rpf {
+namespace {
+
+/// The part of a frame that is filtered to predict the rest: large enough to outweigh what a run costs before its first
+/// pixel.
+constexpr int trial_width = 128, trial_height = 72;
+
+/// What all presets share: the steps beyond the paper gain more than any setting of its own, and features of the second
+/// hit cost time and energy.
+Settings common_settings() {
+  Settings s;
+  s.profile = Profile::paper;
+  s.features = std::vector<std::string>{"first"};
+  s.spread_spikes = true;
+  s.polish = 0.15F;
+  s.noise = 0.002F;
+  return s;
+}
+
+Settings fast_settings() {
+  Settings s = common_settings();
+  s.box_widths = {15, 5};
+  s.samples_factor = 1;
+  s.statistics_block = 4;
+  return s;
+}
+
+Settings balanced_settings() {
+  Settings s = common_settings();
+  s.box_widths = {15, 5};
+  s.samples_factor = 4;
+  s.statistics_block = 2;
+  return s;
+}
+
+Settings high_settings() {
+  Settings s = common_settings();
+  s.box_widths = {15, 7, 5};
+  s.samples_factor = 8;
+  return s;
+}
+
+struct Preset {
+  const char* name;
+  const char* purpose;
+  Settings (*settings)();
+};
+
+constexpr Preset all_presets[] = {
+    {"fast", "previews: small neighborhoods, and 4x4 pixels share their statistics", fast_settings},
+    {"balanced", "most work: nearly the error of high in a third of its time", balanced_settings},
+    {"high", "final frames: every pixel measures for itself, in large neighborhoods", high_settings},
+};
+
+/// The middle of a frame, at most trial_width x trial_height pixels.
+SampleBuffer middle_of(const SampleBuffer& samples) {
+  const Window& all = samples.data_window;
+  SampleBuffer part;
+  part.layout = samples.layout;
+  part.data_window.width = std::min(all.width, trial_width);
+  part.data_window.height = std::min(all.height, trial_height);
+  part.data_window.x = all.x + (all.width - part.data_window.width) / 2;
+  part.data_window.y = all.y + (all.height - part.data_window.height) / 2;
+  part.display_window = part.data_window;
+  part.first_sample = {0};
+  for (int y = 0; y < part.data_window.height; ++y) {
+    const std::size_t row =
+        static_cast<std::size_t>(part.data_window.y - all.y + y) * static_cast<std::size_t>(all.width);
+    const std::size_t begin = row + static_cast<std::size_t>(part.data_window.x - all.x);
+    const std::size_t end = begin + static_cast<std::size_t>(part.data_window.width);
+    for (std::size_t p = begin; p < end; ++p)
+      part.first_sample.push_back(part.first_sample.back() + samples.first_sample[p + 1] - samples.first_sample[p]);
+    part.values.insert(part.values.end(), samples.record(samples.first_sample[begin]),
+                       samples.record(samples.first_sample[end]));
+  }
+  return part;
+}
+
+double seconds_of(const SampleBuffer& samples, const Settings& settings, const Control& control) {
+  const auto start = std::chrono::steady_clock::now();
+  filter(samples, settings, control);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The preset, run as `settings` say.
+Settings run_as(const Settings& settings, const Preset& preset) {
+  Settings result = preset.settings();
+  result.backend = settings.backend;
+  result.device = settings.device;
+  result.threads = settings.threads;
+  result.max_memory = settings.max_memory;
+  result.filter_features = settings.filter_features;
+  return result;
+}
+
+}  // namespace
+
+std::vector<PresetInfo> presets() {
+  std::vector<PresetInfo> result;
+  for (const Preset& preset : all_presets) result.push_back({preset.name, preset.purpose});
+  return result;
+}
+
+Settings preset_settings(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Preset& preset : all_presets) {
+    if (name == preset.name) return preset.settings();
+    names.emplace_back(preset.name);
+  }
+  throw Error(ErrorKind::usage, fmt::format("preset '{}': one of {} is expected", name, fmt::join(names, ", ")));
+}
+
+std::vector<PresetTime> predict_presets(const SampleBuffer& samples, const Settings& settings, const Control& control) {
+  const SampleBuffer part = middle_of(samples);
+  const double pixels = static_cast<double>(samples.data_window.pixel_count()),
+               tried = static_cast<double>(part.data_window.pixel_count());
+  std::vector<PresetTime> times;
+  for (const Preset& preset : all_presets) {
+    const Settings trial = run_as(settings, preset);
+    seconds_of(part, trial, control);  // compiles what is missing, and warms the caches
+    times.push_back({preset.name, seconds_of(part, trial, control) * pixels / tried});
+  }
+  return times;
+}
+
+PresetTime best_within(const std::vector<PresetTime>& times, double seconds) {
+  const auto fits = [&](const PresetTime& time) { return time.seconds <= seconds; };
+  const auto best = std::find_if(times.rbegin(), times.rend(), fits);
+  return best == times.rend() ? times.front() : *best;
+}
+
+}  // namespace rpf
