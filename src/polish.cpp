@@ -14,7 +14,7 @@ namespace {
 
 constexpr double floor_of_mean = 0.05;
 
-/// Tiles for each thread between two calls of PolishOptions::done: about a quarter of a second.
+/// Tiles for each thread between two calls of PolishOptions::done: less than a tenth of a second.
 constexpr std::size_t tiles_per_thread = 24;
 
 std::vector<Window> tiles_of(const Window& region) {
