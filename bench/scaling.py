@@ -16,7 +16,7 @@ import numpy as np
 TERMS = ("a pixel", "M", "N V", "P", "P N", "s N (m + 3)")
 SMALL = "--backend opencl --profile paper --samples-factor 2 --noise 0.002 --boxes 21,11,5"
 ONE = "--backend opencl --profile paper --boxes {}"
-BOXES, COUNTS, SIZES = (5, 7, 11, 17, 25, 35, 55), (2, 4, 8, 16), ("120x68", "240x135", "480x270", "960x540")
+BOXES, COUNTS, SIZES = (5, 7, 11, 17, 25, 35, 55), (2, 4, 8, 16), ("60x34", "120x68", "240x135", "480x270")
 FEATURES = ("none", "N", "N,P", "N,P,albedo", "N,P,albedo,uv,N2", "all")
 
 
