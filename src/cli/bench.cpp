@@ -1,10 +1,10 @@
 #include "cli/bench.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 
@@ -91,12 +91,8 @@ void show_status(const std::string& text) {
 double kept_energy(const Report& report) { return report.passes.empty() ? 1 : report.passes.back().energy; }
 
 Json json_of(const bench::FrameRun& run) {
-  Json json{{"cpu", run.cost.cpu},
-            {"wall", run.cost.wall},
-            {"energy", kept_energy(run.report)},
-            {"backend", run.report.backend},
-            {"random", run.report.random},
-            {"features", run.report.features}};
+  Json json{{"cpu", run.cost.cpu},           {"wall", run.cost.wall},       {"energy", kept_energy(run.report)},
+            {"backend", run.report.backend}, {"random", run.report.random}, {"features", run.report.features}};
   for (const PassReport& pass : run.report.passes)
     json["passes"].push_back({{"box", pass.box_width},
                               {"neighbors", pass.neighbors},
