@@ -42,7 +42,7 @@ def phase_rows(benchmarks):
     rows = ["| phase | unit | " + " | ".join(f"b = {b}" for b in (55, 17, 7)) + " |", "|---|---|---|---|---|"]
     found = {b["run_name"].split("/")[0]: b for b in benchmarks}
     for backend in ("opencl", "cpu"):
-        for phase in ("gather", "prepare", "information", "weights"):
+        for phase in ("draw", "gather", "prepare", "information", "weights"):
             cells = [found.get(f"dof.4spp.240x135.{backend}.paper.{box}.{phase}") for box in (55, 17, 7)]
             if cells[0]:
                 unit = next(k for k in cells[0] if k.startswith("ns/"))

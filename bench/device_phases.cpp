@@ -13,8 +13,8 @@ namespace {
 constexpr int width = 240, height = 135;
 constexpr Window tile{72, 40, 96, 54};  // its middle: most boxes are inside the frame
 
-enum Phase { gather, prepare, information, weights, phases };
-constexpr const char* phase_names[phases] = {"gather", "prepare", "information", "weights"};
+enum Phase { draw, gather, prepare, information, weights, phases };
+constexpr const char* phase_names[phases] = {"draw", "gather", "prepare", "information", "weights"};
 
 /// One pass, and how much work its tile is.
 struct Pass {
@@ -73,6 +73,8 @@ void count_phase(benchmark::State& state, const Pass& pass, int phase, double se
   const double pairs = pairs_of(plan) * pass.neighbors;
   const auto at_roof = [](double units, double rate) { return rate > 0 ? units / rate : 0; };
   switch (phase) {
+    case draw:
+      return count(state, "draw", pass.draws, seconds, 0);
     case gather:
       return count(state, "draw", pass.draws, seconds, at_roof(pass.draws, roofs.random_records));
     case prepare:

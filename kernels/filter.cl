@@ -7,6 +7,11 @@
 #include "statistics.cl"
 #include "weighting.cl"
 
+// How many phases of a pixel run, of five. Only the benchmarks compile less than all, to know what each takes.
+#ifndef RPF_PHASES
+#define RPF_PHASES 5
+#endif
+
 static void trace_vectors(const Trace* trace, uint at, const float16* values, int count) {
   for (int c = 0; c < count; ++c) vstore16(values[c], c, trace->values + at);
 }
@@ -23,7 +28,6 @@ static void trace_moments(const Trace* trace, const OwnMoments* moments) {
 
 // Section 4 for all variables.
 static void normalize_columns(const OwnMoments* own, uint neighbors, const Slot* slot, const Trace* trace) {
-  if (RPF_PHASES < 2) return;
   float shift[RPF_CHUNKS * RPF_LANES];
   for (int c = 0; c < RPF_CHUNKS; ++c) vstore16(own->shift[c], c, shift);
   for (uint v = 0; v < RPF_VARIABLES; ++v) {
@@ -43,7 +47,6 @@ typedef struct {
 
 static void weigh(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot, const Trace* trace,
                   Weights* out) {
-  if (RPF_PHASES < 3) return;
   float information[RPF_PAIRS];
   measure_dependencies(frame, pass, neighbors, slot, trace, information);
   const rpf_feature_weights feature = {out->feature_fraction_random, out->fraction_feature, out->beta};
@@ -68,16 +71,20 @@ static rpf_pixel_statistics filter_pixel(const Frame* frame, const rpf_pass* pas
   OwnMoments moments;
   own_moments(frame, pass, first, own, &moments);
   statistics.drawn = draw_candidates(frame, pass, pixel, own, slot);
+  if (RPF_PHASES == 1) return statistics;
   const uint neighbors = gather(frame, pass, first, own, &moments, statistics.drawn, slot);
   statistics.neighbors = neighbors;
+  if (RPF_PHASES == 2) return statistics;
   fill_columns(frame, pass, neighbors, &moments, slot);
   normalize_columns(&moments, neighbors, slot, trace);
+  if (RPF_PHASES == 3) return statistics;
 
   Weights weights;
   weigh(frame, pass, neighbors, slot, trace, &weights);
   statistics.fraction_random = weights.color.fraction_random;
   statistics.alpha = rpf_mean(weights.color.alpha, 3);
   statistics.beta = rpf_mean(weights.beta, RPF_FEATURES);
+  if (RPF_PHASES == 4) return statistics;
 
   Coordinates coordinates;
   choose_coordinates(pass, own, &weights.color, weights.beta, &coordinates);

@@ -2,15 +2,10 @@
 //
 // Compiled in (-D): RPF_VARIABLES, RPF_RANDOM, RPF_FEATURES, RPF_BINS, RPF_CARRIED of the plan; RPF_REJECTING, how many
 // features have to be looked at to reject a candidate; RPF_SAMPLES, the samples of every pixel, 0 where they vary;
-// RPF_MISSING, 1 where the frame has missing values. By the benchmarks only: RPF_PHASES, how many phases of a pixel run
-// (gather, prepare, information, weights), to know what each takes; results are of no use then.
+// RPF_MISSING, 1 where the frame has missing values.
 #include "pass.h"
 #include "rpf_math.h"
 #include "trace_layout.h"
-
-#ifndef RPF_PHASES
-#define RPF_PHASES 4
-#endif
 
 #define RPF_CHUNKS ((RPF_VARIABLES + RPF_CARRIED + RPF_LANES - 1) / RPF_LANES)  // vectors that hold a record and its c'
 #define RPF_FEATURE_CHUNKS ((RPF_FEATURES + RPF_LANES - 1) / RPF_LANES)

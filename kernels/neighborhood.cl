@@ -189,7 +189,6 @@ static void store_column(const Slot* slot, uint place, uint block, float16 value
 // Records to columns, less the shift. Behind the last neighbor all values are missing, so that sums leave them out.
 static void fill_columns(const Frame* frame, const rpf_pass* pass, uint neighbors, const OwnMoments* moments,
                          const Slot* slot) {
-  if (RPF_PHASES < 2) return;
   for (uint block = 0; block * RPF_LANES < neighbors; ++block)
     for (int c = 0; c < RPF_CHUNKS; ++c) {
       float16 rows[RPF_LANES];

@@ -107,7 +107,6 @@ static void filter_batch(const Slot* slot, const Coordinates* coordinates, uint 
 
 static void filter_samples(uint own, uint neighbors, const Slot* slot, const Coordinates* coordinates,
                            const Trace* trace, __global float* out) {
-  if (RPF_PHASES < 4) return;
   fill_up_colors(neighbors, slot);
   float2 range[RPF_CARRIED];
   for (int c = 0; c < RPF_CARRIED; ++c)

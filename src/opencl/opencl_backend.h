@@ -13,7 +13,7 @@ struct OpenClOptions {
   std::string device;            ///< index or part of a name; empty: the first
   int threads = 1;               ///< compute units to keep busy, on a device that is a CPU
   std::uint64_t band_bytes = 0;  ///< most bytes of a band; 0: what the device has
-  int phases = 0;  ///< only the first phases of a pixel: gather, prepare, information, weights; 0: all
+  int phases = 0;  ///< only the first phases of a pixel: draw, gather, prepare, information, weights; 0: all
 };
 
 class OpenClBackend : public Backend {
