@@ -20,9 +20,10 @@ PAGE, PICTURE = PROJECT / "docs/bench.md", PROJECT / "docs/images/scaling.png"
 def measure_phases(program, output):
     if not output.exists():
         temporary = output.with_suffix(".part")
-        subprocess.run([program, f"--benchmark_out={temporary}", "--benchmark_out_format=json"], check=True)
+        subprocess.run([program, "--benchmark_repetitions=3", "--benchmark_report_aggregates_only=true",
+                        f"--benchmark_out={temporary}", "--benchmark_out_format=json"], check=True)
         temporary.rename(output)
-    return [b for b in json.loads(output.read_text())["benchmarks"] if b.get("run_type") == "iteration"]
+    return [b for b in json.loads(output.read_text())["benchmarks"] if b.get("aggregate_name") == "median"]
 
 
 def roof_rows(benchmarks):
@@ -30,7 +31,7 @@ def roof_rows(benchmarks):
     names = {"multiply_add": "multiplications and additions, each rounded, 1e9", "fused_multiply_add": "the same, fused, 1e9",
              "exp": "exponentials, 1e9", "popcount": "AND and popcount of 64 bits, 1e9", "increments": "increments of joint histograms, 1e9",
              "read": "GB read from memory", "read_cached": "GB read from the L2 cache", "random_records": "random records of 64 bytes, 1e9"}
-    found = {tuple(b["name"].split("/")[0].split(".")[1:]): b["1e9/s"] for b in benchmarks if b["name"].startswith("roof")}
+    found = {tuple(b["run_name"].split("/")[0].split(".")[1:]): b["1e9/s"] for b in benchmarks if b["run_name"].startswith("roof")}
     for name, text in names.items():
         cells = [f"{found[backend, name]:.3g}" if (backend, name) in found else "-" for backend in ("opencl", "cpu")]
         rows.append(f"| {text} | " + " | ".join(cells) + " |")
@@ -39,17 +40,19 @@ def roof_rows(benchmarks):
 
 def phase_rows(benchmarks):
     rows = ["| phase | unit | " + " | ".join(f"b = {b}" for b in (55, 17, 7)) + " |", "|---|---|---|---|---|"]
-    found = {b["name"].split("/")[0]: b for b in benchmarks}
+    found = {b["run_name"].split("/")[0]: b for b in benchmarks}
     for backend in ("opencl", "cpu"):
         for phase in ("draw", "gather", "prepare", "information", "weights"):
             cells = [found.get(f"dof.4spp.240x135.{backend}.paper.{box}.{phase}") for box in (55, 17, 7)]
-            if all(cells):
+            if cells[0]:
                 unit = next(k for k in cells[0] if k.startswith("ns/"))
                 rows.append(f"| {backend}: {phase} | {unit.replace('_', ' ')} | " + " | ".join(phase_cell(c, unit) for c in cells) + " |")
     return rows
 
 
 def phase_cell(benchmark, unit):
+    if benchmark is None:
+        return "-"
     roof = f", {benchmark['% of roof']:.0f} %" if "% of roof" in benchmark else ""
     share = f"; {benchmark['us/pixel']:.2f} us" if "us/pixel" in benchmark else ""
     return f"{benchmark[unit]:.3g}{roof}{share}"
@@ -59,7 +62,7 @@ def frame_rows(benchmarks):
     rows = ["| frame | CPU s | wall s | acceptance | ns a neighbor | us a pixel |", "|---|---|---|---|---|---|"]
     for b in benchmarks:
         if "acceptance" in b:
-            rows.append(f"| `{b['name'].split('/')[0]}` | {b['cpu_time'] / 1e3:.2f} | {b['real_time'] / 1e3:.2f} | {b['acceptance']:.2f} | "
+            rows.append(f"| `{b['run_name'].split('/')[0]}` | {b['cpu_time'] / 1e3:.2f} | {b['real_time'] / 1e3:.2f} | {b['acceptance']:.2f} | "
                         f"{b['ns/neighbor']:.1f} | {b['us/pixel']:.1f} |")
     return rows
 

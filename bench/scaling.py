@@ -16,7 +16,7 @@ import numpy as np
 TERMS = ("a pixel", "M", "N V", "P", "P N", "s N (m + 3)")
 SMALL = "--backend opencl --profile paper --samples-factor 2 --noise 0.002 --boxes 21,11,5"
 ONE = "--backend opencl --profile paper --boxes {}"
-BOXES, COUNTS, SIZES = (5, 7, 11, 17, 25, 35, 55), (2, 4, 8, 16), ("120x68", "240x135", "480x270", "960x540")
+BOXES, COUNTS, SIZES = (5, 7, 11, 17, 25, 35, 55), (2, 4, 8, 16), ("60x34", "120x68", "240x135", "480x270")
 FEATURES = ("none", "N", "N,P", "N,P,albedo", "N,P,albedo,uv,N2", "all")
 
 
@@ -33,11 +33,10 @@ def plan(rounds):
 
 
 def medians(path):
-    """{(frame, setting): a result line with the median CPU seconds}"""
-    lines = [json.loads(line) for line in path.read_text().splitlines()]
+    """{(sample file, options): a result line with the median CPU seconds}. Frames of the plan may share a file."""
     groups = {}
-    for line in lines:
-        groups.setdefault((line["frame"], line["setting"]), []).append(line)
+    for line in map(json.loads, path.read_text().splitlines()):
+        groups.setdefault((line["key"].split(" | ")[0], line["options"]), []).append(line)
     return {key: {**group[0], "cpu": float(np.median([l["cpu"] for l in group]))} for key, group in groups.items()}
 
 
@@ -68,26 +67,25 @@ def fit(rows, measured):
 
 
 def points(table):
-    """(axis, value, samples, line, pixels, CPU microseconds a pixel without reading) of each run."""
-    result = []
-    for (frame, setting), line in table.items():
-        if setting == "mean":
-            continue
-        mean = table[frame, "mean"]["cpu"]
-        size = frame.split()[1] if frame.startswith("size") else "240x135"
-        pixels = int(size.split("x")[0]) * int(size.split("x")[1])
-        samples = int(frame.split()[1]) if frame.startswith("samples") else 4
-        axis, value = (frame if frame != "240x135" else setting).split()
-        value = {"size": pixels, "features": len(line["features"])}.get(axis) or (0 if axis == "features" else int(value))
-        result.append((axis, value, samples, line, pixels, 1e6 * (line["cpu"] - mean) / pixels))
-    return sorted(result, key=lambda p: (p[0], p[1]))
+    """(axis, value, samples, line, CPU microseconds a pixel without reading) of each run."""
+    result, wanted = [], plan(1)
+    for frame in wanted["frames"]:
+        file = f"{frame['scene']}-{frame['size']}-{frame['spp']}spp.samples.exr"
+        width, height = map(int, frame["size"].split("x"))
+        for setting in frame["settings"][1:]:
+            line = table[file, wanted["settings"][setting]]
+            cost = line["cpu"] - table[file, wanted["settings"]["mean"]]["cpu"]
+            axis, text = (setting if frame["name"] == "240x135" else frame["name"]).split()
+            value = {"size": width * height, "samples": frame["spp"], "features": len(line["features"])}.get(axis)
+            result.append((axis, int(text) if value is None else value, frame["spp"], line, 1e6 * cost / (width * height)))
+    return sorted(result, key=lambda p: p[:2])
 
 
 def report(path, picture):
     """Table rows for docs/bench.md; draws the plot."""
     table = points(medians(path))
-    rows = np.array([terms(line, samples) for _, _, samples, line, _, _ in table])
-    measured = np.array([p[5] for p in table])
+    rows = np.array([terms(line, samples) for _, _, samples, line, _ in table])
+    measured = np.array([p[4] for p in table])
     coefficients = fit(rows, measured)
     model = rows @ coefficients
     plot(table, measured, model, picture)
@@ -109,10 +107,13 @@ def plot(table, measured, model, picture):
         x = [table[i][1] for i in mine]
         panel.plot(x, measured[mine], "o", label="measured")
         panel.plot(x, model[mine], "-", label="model")
-        if axis != "features":
+        if axis == "features":
+            panel.set_ylim(bottom=0)
+        else:
             panel.set_xscale("log", base=2)
             panel.set_yscale("log", base=2)
-        panel.set_ylim(bottom=None if axis != "features" else 0)
+            for side in (panel.xaxis, panel.yaxis):
+                side.set_major_formatter(lambda number, _: f"{number:g}")
         panel.set_xlabel(title)
     panels[0].set_ylim(min(measured[[p[0] == "size" for p in table]]) / 2, max(measured[[p[0] == "size" for p in table]]) * 2)
     panels[0].set_ylabel("CPU microseconds a pixel")

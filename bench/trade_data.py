@@ -29,12 +29,13 @@ def geometric_mean(values):
 
 def summary(points):
     """{setting: {"cpu", "wall", "relMSE", "FLIP"}} over the frames that have all of them: geometric means; errors are parts
-    of the plain mean's at 4 samples a pixel."""
+    of the plain mean's at 4 samples a pixel; costs are None where they were not measured."""
     names = [n for n in next(iter(points.values())) if sum(n in row for row in points.values()) == len(points)]
     result = {}
     for name in names:
         result[name] = {m: geometric_mean([row[name][m] / row["mean"][m] for row in points.values()]) for m in MEASURES}
         for cost in ("cpu", "wall"):
-            result[name][cost] = geometric_mean([row[name][cost] for row in points.values()])
+            costs = [row[name][cost] for row in points.values()]
+            result[name][cost] = None if None in costs else geometric_mean(costs)  # means of more samples have none
         result[name]["worst"] = max(row[name]["relMSE"] / row["mean"]["relMSE"] for row in points.values())
     return result

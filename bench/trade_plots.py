@@ -5,6 +5,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from trade_data import MEASURES, OTHERS, PRESETS, PROFILES, is_ours, pareto, summary
 
@@ -30,6 +31,10 @@ def draw(axes, row, measure):
             spp = name.removeprefix("mean of ") if name != "mean" else "4"
             axes.annotate(f"mean of {spp}", (1, p[measure]), xycoords=("axes fraction", "data"), xytext=(-2, 1),
                           textcoords="offset points", ha="right", fontsize=6, color="0.5")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter(lambda value, _: f"{value:g}")
+        axis.set_minor_formatter(NullFormatter())
     axes.set_xlabel("CPU seconds a frame")
     axes.set_ylabel(measure)
     axes.grid(True, which="major", linewidth=0.3)
@@ -39,7 +44,7 @@ def save(row, title, path):
     figure, axes = plt.subplots(1, 2, figsize=(10, 4.2))
     for panel, measure in zip(axes, MEASURES):
         draw(panel, row, measure)
-    axes[0].legend(fontsize=7, loc="lower left")
+    axes[0].legend(fontsize=7, loc="best")
     figure.suptitle(title, fontsize=10)
     figure.tight_layout()
     figure.savefig(path, dpi=90)

@@ -29,6 +29,7 @@ ErrorKind kind_of(int exit_code) {
 /// Starts the program with its standard output in the pipe's end `out`.
 pid_t start(const std::vector<std::string>& command, int out) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
@@ -72,7 +73,7 @@ std::string output_of(const std::vector<std::string>& command) {
     throw;
   }
   close(ends[1]);
-  const std::string text = read_all(ends[0], child);
+  std::string text = read_all(ends[0], child);
   close(ends[0]);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {

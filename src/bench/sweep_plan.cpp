@@ -39,7 +39,7 @@ SweepFrame read_frame(const std::string& plan, const Json& json, const std::stri
   }
   const std::string size = json.value("size", "240x135");
   if (std::sscanf(size.c_str(), "%dx%d", &frame.width, &frame.height) != 2)
-    refuse(plan, fmt::format("size \"{}\" of frame \"{}\": WIDTHxHEIGHT is expected", size, frame.name));
+    refuse(plan, fmt::format(R"(size "{}" of frame "{}": WIDTHxHEIGHT is expected)", size, frame.name));
   frame.samples_per_pixel = json.value("spp", 4);
   frame.reference_samples = json.value("reference_spp", 0);
   name_scene_files(frame, scene_folder);

@@ -314,4 +314,14 @@ MUTANTS = [
            "ExposureRange.ReachesFromTheBrightestPixelToTheMedian", "HDR-FLIP: the lower median"),
     Mutant("convolution_border", "src/metrics/convolution.cpp", "std::fill_n(padded.end() - radius, radius, row[width - 1]);", "",
            "HdrFlip.IsThatOfItsAuthors", "metrics: black beyond the right border"),
+
+    # ---------------------------------------------------------------- measuring
+    Mutant("bench_confidence", "src/bench/statistics.cpp", "1 - 2 * outside < least_confidence", "1 - outside < least_confidence",
+           "BenchStatistics.FiveRoundsGiveNoVerdict", "verdict: an interval of one side"),
+    Mutant("bench_verdict", "src/bench/statistics.cpp", "if (ratio.high < 1)", "if (ratio.median < 1)",
+           "BenchStatistics.VerdictOnlyBeyondTheSpread", "verdict: inside the spread"),
+    Mutant("bench_torn_line", "src/bench/results_file.cpp", "std::filesystem::resize_file(path_, text.size(), failure);", "",
+           "BenchResults.AnInterruptedLineIsDropped", "sweep: the next line is glued to a torn one"),
+    Mutant("bench_key", "src/bench/sweep_plan.cpp", "setting.options, round);", "setting.name, round);",
+           "BenchPlan.KeysTellMeasurementsApart", "sweep: a setting is known by its label"),
 ]
