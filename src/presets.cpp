@@ -21,32 +21,33 @@ Settings common_settings() {
   Settings s;
   s.profile = Profile::paper;
   s.features = std::vector<std::string>{"first"};
+  s.box_widths = {11, 5};
+  s.noise = 0.005F;
   s.spread_spikes = true;
   s.polish = 0.15F;
-  s.noise = 0.002F;
   return s;
 }
 
 Settings fast_settings() {
   Settings s = common_settings();
-  s.box_widths = {15, 5};
   s.samples_factor = 1;
   s.statistics_block = 4;
+  s.polish = 0.2F;
   return s;
 }
 
 Settings balanced_settings() {
   Settings s = common_settings();
-  s.box_widths = {15, 5};
   s.samples_factor = 4;
-  s.statistics_block = 2;
   return s;
 }
 
 Settings high_settings() {
   Settings s = common_settings();
-  s.box_widths = {15, 7, 5};
-  s.samples_factor = 8;
+  s.box_widths = {15, 5};
+  s.samples_factor = 16;
+  s.neighbors_factor = 4;
+  s.noise = 0.003F;
   return s;
 }
 
@@ -57,9 +58,9 @@ struct Preset {
 };
 
 constexpr Preset all_presets[] = {
-    {"fast", "previews: small neighborhoods, and 4x4 pixels share their statistics", fast_settings},
-    {"balanced", "most work: nearly the error of high in a third of its time", balanced_settings},
-    {"high", "final frames: every pixel measures for itself, in large neighborhoods", high_settings},
+    {"fast", "previews and long sequences: M = b^2, and blocks of 4x4 pixels share their statistics", fast_settings},
+    {"balanced", "most work: M = 4 b^2, and every pixel measures for itself", balanced_settings},
+    {"high", "final frames: wider, and pixels that reject nearly everything draw up to 16 b^2 samples", high_settings},
 };
 
 /// The middle of a frame, at most trial_width x trial_height pixels.
