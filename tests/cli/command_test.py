@@ -106,6 +106,29 @@ class CommandTest(unittest.TestCase):
         self.expect(run(EXAMPLE, "-o", self.output, "--aov", f"{folder}/", *QUICK), 0)
         self.assertEqual(sorted(p.name for p in folder.iterdir()), ["N.exr", "P.exr", "albedo.exr"])
 
+    def test_options_beside_a_preset_win_wherever_they_stand(self):
+        for arguments in (["--preset", "fast", "--noise", "0.5"], ["--noise", "0.5", "--preset=fast"]):
+            self.expect(run(EXAMPLE, "-o", self.output, "-q", "--crop", "4x4+20+20", *arguments), 0)
+            header = self.output.read_bytes()
+            self.assertIn(b"statistics-block=4", header)                              # the preset's
+            self.assertIn(b"rpf:noise\0float\0\x04\0\0\0\0\0\0\x3f", header)  # 0.5
+
+    def test_a_preset_is_its_options(self):
+        other = self.folder / "other.exr"
+        options = ["--profile", "paper", "--features", "first", "--boxes", "11,5", "--samples-factor", "4", "--noise",
+                   "0.005", "--spread-spikes", "--polish", "0.15"]
+        self.expect(run(EXAMPLE, "-o", self.output, "-q", "--preset", "balanced", "--crop", "9x9+20+20"), 0)
+        self.expect(run(EXAMPLE, "-o", other, "-q", *options, "--crop", "9x9+20+20"), 0)
+        self.assertEqual(self.output.read_bytes(), other.read_bytes())
+
+    def test_time_budget_takes_the_best_preset_that_fits(self):
+        crop = ["--crop", "4x4+20+20"]
+        self.expect(run(EXAMPLE, "-o", self.output, "--time-budget", "10h", *crop), 0, "preset high: predicted to take")
+        self.expect(run(EXAMPLE, "-o", self.output, "--time-budget", "1ms", *crop), 0, "preset fast", "none is faster")
+        for wrong in ("0", "-3s", "10 parsecs", "soon"):
+            self.expect(run(EXAMPLE, "-o", self.output, "--time-budget=" + wrong), 2, "--time-budget", "10s")
+        self.expect(run(EXAMPLE, "-o", self.output, "--time-budget", "3s", "--preset", "fast"), 2, "excludes")
+
     def test_records_how_an_image_was_made(self):
         self.expect(run(EXAMPLE, "-o", self.output, "--seed", "7", "--spread-spikes", "--polish", "0.15", *QUICK), 0)
         header = self.output.read_bytes()[:4096]
