@@ -173,7 +173,8 @@ SampleFileInfo inspect_deep(const std::string& path, const SampleReadOptions& op
 }
 
 SampleBuffer read_deep(const std::string& path, const SampleReadOptions& options) {
-  const CheckedFile checked = check_file(path, options);
+  CheckedFile checked = check_file(path, options);
+  leave_out_unwanted(checked.info, options);
   SampleBuffer samples = empty_buffer(checked.info);
   check_sample_budget(checked, samples.layout.size(), options.max_memory);
   guard_input(path, [&] {
@@ -185,7 +186,7 @@ SampleBuffer read_deep(const std::string& path, const SampleReadOptions& options
       for (const unsigned count : counts) samples.first_sample.push_back(samples.first_sample.back() + count);
     });
     // All allocations are counted in check_sample_budget().
-    samples.values.resize(samples.sample_count() * samples.layout.size());
+    allocate_values(samples);
     ValueReader reader(file, checked, samples);
     for (int row = 0; row < samples.data_window.height; ++row) reader.read_row(row);
   });

@@ -155,6 +155,26 @@ TEST(Samples, AliasesAndMapWorkOnFiles) {
   EXPECT_EQ(samples.record(3)[5], value(6, 3));
 }
 
+TEST(Samples, OnlyWantedSlotsAreReadButAllAreInspected) {
+  const TemporaryFolder folder;
+  write_deep(folder.file("a.exr"), {});
+  const SampleBuffer all = rpf::read_samples(folder.file("a.exr"));
+  rpf::write_samples(folder.file("a.rpf"), all);
+  rpf::SampleReadOptions options;
+  options.slots = {"R", "G", "B", "film.X", "film.Y", "not.there"};
+  for (const char* name : {"a.exr", "a.rpf"}) {
+    const SampleBuffer some = rpf::read_samples(folder.file(name), options);
+    ASSERT_EQ(some.layout.slots, (std::vector<std::string>{"R", "G", "B", "film.X", "film.Y"})) << name;
+    ASSERT_GT(all.layout.size(), some.layout.size());
+    for (std::size_t i = 0; i < all.sample_count(); ++i)
+      for (std::size_t c = 0; c < 5; ++c) ASSERT_EQ(some.record(i)[c], all.record(i)[c]) << name;
+    std::size_t listed = 0;
+    for (const auto& channel : rpf::inspect_samples(folder.file(name), options).channels)
+      listed += channel.slot.empty() ? 0 : 1;
+    EXPECT_EQ(listed, all.layout.size()) << name;
+  }
+}
+
 TEST(Samples, TheMemoryBudgetIsCheckedBeforehand) {
   const TemporaryFolder folder;
   Recipe recipe;
