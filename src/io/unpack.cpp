@@ -30,13 +30,18 @@ bool expand_runs(const std::vector<std::uint8_t>& packed, std::vector<std::uint8
 /// Before compression the bytes at even places were put in front of those at odd places, and each byte but the first
 /// was replaced by its difference from the one before, plus 128.
 void undo_differences(const std::vector<std::uint8_t>& differences, std::vector<std::uint8_t>& out) {
-  const std::size_t even = (out.size() + 1) / 2;
-  std::uint8_t value = 128;  // so that the first byte is what it is
-  const auto next = [&](std::uint8_t difference) {
-    return value = static_cast<std::uint8_t>(value + difference - 128);
+  const std::size_t even = (out.size() + 1) / 2, odd = out.size() / 2;
+  const auto add = [](std::uint8_t value, std::uint8_t difference) {
+    return static_cast<std::uint8_t>(value + difference - 128);
   };
-  for (std::size_t i = 0; i < even; ++i) out[2 * i] = next(differences[i]);
-  for (std::size_t i = even; i < out.size(); ++i) out[2 * (i - even) + 1] = next(differences[i]);
+  // Two chains of sums side by side take half the time of one: where the second begins is a plain sum.
+  std::uint8_t first = 128, second = 128;  // so that the first byte is what it is
+  for (std::size_t i = 0; i < even; ++i) second = add(second, differences[i]);
+  for (std::size_t i = 0; i < odd; ++i) {
+    out[2 * i] = first = add(first, differences[i]);
+    out[2 * i + 1] = second = add(second, differences[even + i]);
+  }
+  if (even > odd) out[2 * odd] = add(first, differences[odd]);
 }
 
 }  // namespace

@@ -155,6 +155,25 @@ TEST(Samples, AliasesAndMapWorkOnFiles) {
   EXPECT_EQ(samples.record(3)[5], value(6, 3));
 }
 
+// Rows of many samples and of odd sizes, half and float side by side: against OpenEXR's own writer.
+TEST(Samples, WideRowsOfEveryCompression) {
+  const TemporaryFolder folder;
+  for (const auto compression : {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION})
+    for (const unsigned most : {1U, 7U}) {
+      Recipe recipe;
+      recipe.data_window = {-5, 3, 333, 3};
+      recipe.compression = compression;
+      recipe.types = {Imf::HALF, Imf::FLOAT, Imf::HALF};
+      recipe.counts = [&](int pixel) { return static_cast<unsigned>(pixel) % (most + 1); };
+      write_deep(folder.file("a.exr"), recipe);
+      const SampleBuffer samples = rpf::read_samples(folder.file("a.exr"));
+      for (std::size_t s = 0; s < samples.sample_count(); ++s)
+        for (std::size_t c = 0; c < recipe.channels.size(); ++c)
+          ASSERT_EQ(samples.record(s)[*samples.layout.find(recipe.channels[c])], value(c, s))
+              << compression << ": sample " << s << ", channel " << recipe.channels[c];
+    }
+}
+
 TEST(Samples, OnlyWantedSlotsAreReadButAllAreInspected) {
   const TemporaryFolder folder;
   write_deep(folder.file("a.exr"), {});
