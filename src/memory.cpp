@@ -9,6 +9,7 @@
 #include "polish.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
+#include "rpf/io.h"
 #include "spikes.h"
 
 namespace rpf {
@@ -16,12 +17,15 @@ namespace {
 
 constexpr std::uint64_t word = 4;
 
-/// Bytes while filtering: records, colors of this and the next pass, and per pixel: offsets, statistics, two images.
-std::uint64_t filtering_bytes(const FrameSize& size, std::uint64_t record_floats, std::uint64_t carried) {
-  const std::uint64_t per_sample = word * (record_floats + 2 * carried);
-  const std::uint64_t per_pixel = 2 * word + sizeof(PixelStatistics) + 3 * word * carried;
-  return size.samples * per_sample + size.pixels * per_pixel;
+/// Most floats a sample that exist at once: while records are made of what was read, in place where there is room for
+/// them, beside the first colors; or while filtering, with the colors of this and the next pass.
+std::uint64_t sample_floats(std::uint64_t read, std::uint64_t room, std::uint64_t records, std::uint64_t carried) {
+  const std::uint64_t preparing = records <= room ? std::max(read, records) : read + records;
+  return std::max(preparing + carried, records + 2 * carried);
 }
+
+/// Per pixel: offsets, statistics, images before and after a pass, the result.
+std::uint64_t pixel_bytes(std::uint64_t carried) { return 2 * word + sizeof(PixelStatistics) + 3 * word * carried; }
 
 FrameFacts facts_of(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {
   FrameFacts facts;
@@ -36,26 +40,31 @@ FrameFacts facts_of(const FrameSize& size, const SampleLayout& layout, const Set
   return facts;
 }
 
-}  // namespace
-
-std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {
+/// `room`: columns that the buffer of values can hold.
+std::uint64_t memory_need(const FrameSize& size, const SampleLayout& layout, std::uint64_t room,
+                          const Settings& settings) {
   const FrameFacts facts = facts_of(size, layout, settings);
   Settings without_crop = settings;
   without_crop.crop.reset();
   const Plan plan = make_plan(facts, without_crop);
-  // The buffer that was read becomes the records, unless these are longer; then both exist for a moment.
-  const std::uint64_t read = layout.size(), records = facts.variables.count();
-  const std::uint64_t floats = records <= read ? read : read + records;
+  const std::uint64_t floats = sample_floats(layout.size(), room, facts.variables.count(), facts.carried);
   const std::uint64_t steps =
       (plan.spread_spikes ? spikes_bytes(size.pixels) : 0) + polish_bytes(plan, thread_count(settings));
-  return filtering_bytes(size, floats, facts.carried) + steps +
+  return size.samples * word * floats + size.pixels * pixel_bytes(facts.carried) + steps +
          make_backend(settings)->scratch_bytes(plan, size.samples);
+}
+
+}  // namespace
+
+std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {
+  return memory_need(size, layout, layout.size() + spare_columns, settings);
 }
 
 void check_memory(const SampleBuffer& samples, const Settings& settings) {
   if (settings.max_memory == 0) return;
   const FrameSize size{samples.data_window.pixel_count(), samples.sample_count(), most_samples(samples.first_sample)};
-  const std::uint64_t need = predict_memory(size, samples.layout, settings);
+  const std::uint64_t room = samples.values.capacity() / std::max<std::uint64_t>(size.samples, 1);
+  const std::uint64_t need = memory_need(size, samples.layout, room, settings);
   constexpr double megabyte = 1 << 20;
   if (need > settings.max_memory)
     throw Error(ErrorKind::memory,

@@ -74,6 +74,9 @@ struct Plan {
 /// Whether a group of features is of the second hit: its name ends in 2, as in "N2".
 bool is_second_hit(const std::string& group);
 
+/// Whether a group of features holds world positions: "P" or "P2".
+bool is_world_position(const std::string& group);
+
 /// What the plan needs to know of the prepared frame.
 struct FrameFacts {
   int width = 0, height = 0;

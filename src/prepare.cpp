@@ -1,7 +1,10 @@
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -133,19 +136,32 @@ std::vector<float> sample_weights(const SampleBuffer& samples, const Columns& co
   return weights;
 }
 
-/// Records of `sources` in the place of the buffer's own where they are not longer; its values are gone afterwards.
+/// Gives the memory behind the last element back: shrink_to_fit() would copy, and need both at once.
+void release_tail(std::vector<float>& values) {
+  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  const auto end = reinterpret_cast<std::uintptr_t>(values.data() + values.size());
+  const auto capacity = reinterpret_cast<std::uintptr_t>(values.data() + values.capacity());
+  const std::uintptr_t first = (end + page - 1) / page * page, last = capacity / page * page;
+  // What is given back reads as zeros afterwards; nothing but a vector that grows again will look.
+  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);  // NOLINT
+}
+
+/// Records of `sources` in the place of the buffer's own where there is room; its values are gone afterwards. Longer
+/// records are made from the last on, so that none overwrites one that is still to be read.
 std::vector<float> repack(SampleBuffer& samples, const std::vector<Source>& sources, float scale) {
-  std::vector<float> longer;
-  const bool in_place = sources.size() <= samples.layout.size();
-  if (!in_place) longer.resize(samples.sample_count() * sources.size());
-  std::vector<float>& target = in_place ? samples.values : longer;
-  std::vector<float> record(samples.layout.size());
-  for (std::size_t i = 0; i < samples.sample_count(); ++i) {
-    std::copy_n(samples.record(i), record.size(), record.begin());
-    for (std::size_t v = 0; v < sources.size(); ++v)
-      target[i * sources.size() + v] = value_of(record.data(), sources[v], scale);
+  const std::size_t count = samples.sample_count(), from = samples.layout.size(), to = sources.size();
+  std::vector<float> elsewhere;
+  const bool in_place = count * to <= samples.values.capacity();
+  std::vector<float>& target = in_place ? samples.values : elsewhere;
+  target.resize(count * std::max(in_place ? from : 0, to));
+  std::vector<float> record(from);
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t i = to > from ? count - 1 - n : n;
+    std::copy_n(samples.values.data() + i * from, from, record.begin());
+    for (std::size_t v = 0; v < to; ++v) target[i * to + v] = value_of(record.data(), sources[v], scale);
   }
-  target.resize(samples.sample_count() * sources.size());
+  target.resize(count * to);
+  release_tail(target);
   return std::move(target);
 }
 

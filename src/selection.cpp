@@ -5,6 +5,7 @@
 
 #include "frame.h"
 #include "rpf/error.h"
+#include "rpf/filter.h"
 
 namespace rpf {
 namespace {
@@ -87,6 +88,19 @@ Selection select_channels(const SampleLayout& layout, const Settings& settings) 
   std::stable_partition(selection.features.begin(), selection.features.end(),
                         [](const std::string& slot) { return !is_second_hit(group_of(slot)); });
   return selection;
+}
+
+std::vector<std::string> needed_slots(const SampleLayout& layout, const Settings& settings) {
+  const Selection selection = select_channels(layout, settings);
+  const auto is_position = [](const std::string& slot) { return is_world_position(group_of(slot)); };
+  const bool measures = std::any_of(selection.features.begin(), selection.features.end(), is_position);
+  const auto is_needed = [&](const std::string& slot) {
+    if (is_random_slot(slot)) return contains(selection.random, slot);
+    // The tolerance of positions depends on the scene's size: first-hit positions, where the normals say it is a hit.
+    if (measures && (group_of(slot) == "P" || group_of(slot) == "N")) return true;
+    return !is_feature_slot(slot) || settings.filter_features || contains(selection.features, slot);
+  };
+  return slots_where(layout, is_needed);
 }
 
 }  // namespace rpf

@@ -68,6 +68,10 @@ struct Result {
 /// Error(cancelled). The result does not depend on the number of threads or the tile size.
 Result filter(SampleBuffer samples, const Settings& settings, const Control& control = {});
 
+/// The slots of a layout that filter() uses with these settings; without the others the result has the same bits. Notes
+/// about channels that are left out are then missing. Throws Error(usage) for a group that the layout does not have.
+std::vector<std::string> needed_slots(const SampleLayout& layout, const Settings& settings);
+
 /// What a memory estimate needs to know of a frame.
 struct FrameSize {
   std::uint64_t pixels = 0;
@@ -75,8 +79,8 @@ struct FrameSize {
   std::uint32_t max_samples_per_pixel = 0;
 };
 
-/// Peak bytes of reading and filtering such a frame, none of its channels being constant. Throws Error(usage) as
-/// filter() does.
+/// Peak bytes of reading the slots of `layout` and filtering such a frame, none of its channels being constant. Throws
+/// Error(usage) as filter() does.
 std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings);
 
 /// The names accepted by Settings::backend, "auto" among them.

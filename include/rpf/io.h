@@ -3,8 +3,10 @@
 // untouched.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,9 @@ struct SampleFileInfo {
 struct SampleReadOptions {
   /// slot -> channel name in the file, beats every automatic assignment; an empty channel name leaves the slot out.
   std::map<std::string, std::string> slot_map;
+  /// The slots to read, of those the file has. The others are checked and inspected like these, but no sample has them.
+  /// Nothing: all. needed_slots() of rpf/filter.h says what filtering takes.
+  std::optional<std::vector<std::string>> slots;
   /// Bytes this read may allocate; 0: no limit. Checked before anything is allocated.
   std::uint64_t max_memory = 0;
 };
@@ -46,8 +51,12 @@ struct SampleReadOptions {
 /// channel or attribute and what was expected.
 SampleFileInfo inspect_samples(const std::string& path, const SampleReadOptions& options = {});
 
-/// Reads all channels that fill a slot. Throws Error(input) for a bad file, Error(memory) where the budget is too small
-/// (the text has the need and the limit).
+/// For so many more columns readers leave room behind SampleBuffer::values: filter() adds the position inside the pixel
+/// in place.
+constexpr std::size_t spare_columns = 2;
+
+/// Reads the channels that fill a wanted slot. Throws Error(input) for a bad file, Error(memory) where the budget is
+/// too small (the text has the need and the limit).
 SampleBuffer read_samples(const std::string& path, const SampleReadOptions& options = {});
 
 /// Writes a sample file; values survive exactly. By the extension: ".exr" is deep scan-line OpenEXR, ZIPS compressed,

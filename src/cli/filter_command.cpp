@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/filter_options.h"
+#include "cli/needs.h"
 #include "cli/print.h"
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
@@ -37,17 +38,9 @@ std::string list(const std::vector<std::string>& names) {
 /// An existing folder, or a name that ends like one.
 bool is_folder(const std::string& path) { return fs::is_directory(path) || path.back() == '/'; }
 
-SampleLayout layout_of(const SampleFileInfo& info) {
-  SampleLayout layout;
-  for (const SampleFileChannel& channel : info.channels)
-    if (!channel.slot.empty()) layout.slots.push_back(channel.slot);
-  return layout;
-}
-
 /// Needs more than the limit: refused before anything is read.
 void check_budget(const SampleFileInfo& info, const Settings& settings, bool tell) {
-  const auto need =
-      predict_memory({info.data_window.pixel_count(), info.sample_count, info.max_samples}, layout_of(info), settings);
+  const auto need = predicted_memory(info, settings);
   const double need_mb = static_cast<double>(need) / megabyte,
                limit_mb = static_cast<double>(settings.max_memory) / megabyte;
   if (tell) print("peak memory: {:.0f} MB of at most {:.0f} MB, {} threads\n", need_mb, limit_mb, settings.threads);
@@ -130,7 +123,7 @@ int run(const FilterOptions& options, const std::vector<std::string>& arguments)
   check_usage(options);
   const double budget = time_budget_of(options);
   Settings settings = settings_of(options);
-  const SampleReadOptions read_options = read_options_of(options.map, settings.max_memory);
+  SampleReadOptions read_options = read_options_of(options.map, settings.max_memory);
   const SampleFileInfo info = inspect_samples(options.input, read_options);
   check_budget(info, settings, options.verbose || options.dry_run);
   if (!options.output.empty()) check_target(options.output);
@@ -138,6 +131,7 @@ int run(const FilterOptions& options, const std::vector<std::string>& arguments)
   if (options.dry_run) return 0;
 
   const double start = cpu_seconds();
+  read_options.slots = needed_layout(info, settings).slots;
   SampleBuffer samples = read_samples(options.input, read_options);
   const double read = cpu_seconds();
   if (budget > 0) {

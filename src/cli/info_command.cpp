@@ -5,8 +5,8 @@
 #include "cli/commands.h"
 #include "cli/environment.h"
 #include "cli/filter_options.h"
+#include "cli/needs.h"
 #include "cli/print.h"
-#include "rpf/filter.h"
 
 namespace rpf::cli {
 namespace {
@@ -49,16 +49,15 @@ void print_channels(const SampleFileInfo& info, const std::vector<ChannelSurvey>
   }
 }
 
-void print_memory(const SampleFileInfo& info, const SampleBuffer& samples) {
+void print_memory(const SampleFileInfo& info) {
   Settings settings;
   settings.threads = default_threads();
-  const FrameSize size{info.data_window.pixel_count(), info.sample_count, info.max_samples};
   constexpr double megabyte = 1 << 20;
   for (const Profile profile : {Profile::thesis, Profile::paper}) {
     settings.profile = profile;
     print("  predicted peak memory, {} profile, {} threads: {:.0f} MB\n",
           profile == Profile::thesis ? "thesis" : "paper", settings.threads,
-          static_cast<double>(predict_memory(size, samples.layout, settings)) / megabyte);
+          static_cast<double>(predicted_memory(info, settings)) / megabyte);
   }
 }
 
@@ -79,7 +78,7 @@ Command add_info_command(CLI::App& app) {
     const SampleBuffer samples = read_samples(options->file, read_options);
     print_file(info);
     print_channels(info, survey(samples));
-    print_memory(info, samples);
+    print_memory(info);
     return 0;
   };
 }

@@ -1,12 +1,12 @@
-// Header and chunk table are checked first (exr_structure, header_checks); only then is memory allocated and OpenEXR's
-// reader opened.
+// Header and chunk table are checked first (exr_structure, header_checks); only then is memory allocated. Rows are
+// unpacked here and not by OpenEXR, whose reader takes more than twice as long.
 #include "io/deep_reader.h"
 
-#include <ImfDeepFrameBuffer.h>
-#include <ImfDeepScanLineInputFile.h>
-#include <ImfStdIO.h>
+#include <fmt/format.h>
+#include <half.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "io/channel_names.h"
@@ -14,7 +14,8 @@
 #include "io/guard.h"
 #include "io/header_checks.h"
 #include "io/reading.h"
-#include "io/row_base.h"
+#include "io/unpack.h"
+#include "rpf/error.h"
 
 namespace rpf::io {
 namespace {
@@ -23,9 +24,24 @@ namespace {
 struct CheckedFile {
   SampleFileInfo info;
   RowTable rows;
+  std::size_t sample_bytes = 0;  ///< over all channels
 };
 
 std::size_t type_size(PixelType type) { return type == PixelType::half_float ? 2 : 4; }
+
+// Little-endian numbers, as OpenEXR stores them.
+std::uint32_t word_at(const std::uint8_t* b) {
+  return b[0] | b[1] << 8U | b[2] << 16U | static_cast<std::uint32_t>(b[3]) << 24U;
+}
+
+float float_at(const std::uint8_t* b) {
+  const std::uint32_t bits = word_at(b);
+  float value = 0;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+float half_at(const std::uint8_t* b) { return imath_half_to_float(static_cast<std::uint16_t>(b[0] | b[1] << 8U)); }
 
 SampleFileInfo info_of(const std::string& path, const DeepHeader& header, const SampleReadOptions& options) {
   SampleFileInfo info;
@@ -51,107 +67,108 @@ CheckedFile check_file(const std::string& path, const SampleReadOptions& options
   check_storage(path, header);
   check_marker(path, header, file.info.channels);
   check_slots(path, file.info.channels);
-  std::size_t sample_bytes = 0;
-  for (const HeaderChannel& channel : header.channels) sample_bytes += type_size(channel.type);
-  file.rows = scan_rows(bytes, header_end, file.info.data_window, sample_bytes);
+  for (const HeaderChannel& channel : header.channels) file.sample_bytes += type_size(channel.type);
+  file.rows = scan_rows(bytes, header_end, file.info.data_window, file.sample_bytes);
   file.info.sample_count = file.rows.total_samples;
   return file;
 }
 
-// OpenEXR's own tables: a count for each pixel, 40 bytes for each row, and up to three copies of one row.
+// Tables of rows, and one row: packed, as differences, unpacked.
 std::uint64_t reader_bytes(const CheckedFile& file) {
   const Window& window = file.info.data_window;
-  return window.pixel_count() * 4 + static_cast<std::uint64_t>(window.height) * 40 + file.rows.largest_row_bytes * 3;
+  return window.height * sizeof(Row) + static_cast<std::uint64_t>(window.width) * 12 + file.rows.largest_row_bytes * 3;
 }
 
-// Reads the counts of one row after the other.
-class CountReader {
+// Unpacks one row after the other.
+class RowReader {
  public:
-  CountReader(Imf::DeepScanLineInputFile& file, const CheckedFile& checked)
-      : file_(file), checked_(checked), counts_(static_cast<std::size_t>(checked.info.data_window.width)) {}
-
-  /// The slice of counts: one row that every row of pixels overwrites (y stride 0).
-  Imf::Slice slice() { return {Imf::UINT, row_base(counts_.data(), checked_.info.data_window.x), sizeof(unsigned), 0}; }
+  explicit RowReader(const CheckedFile& checked)
+      : checked_(checked),
+        bytes_(checked.info.path),
+        unpacker_(checked.info.compression),
+        counts_(static_cast<std::size_t>(checked.info.data_window.width)) {}
 
   /// Counts of one row, checked against the size of its samples.
-  const std::vector<unsigned>& read(int row) {
-    const int y = checked_.info.data_window.y + row;
-    file_.readPixelSampleCounts(y);
-    std::uint64_t sum = 0;
-    for (const unsigned count : counts_) sum += count;
-    if (sum != checked_.rows.samples[static_cast<std::size_t>(row)])
-      throw Error(ErrorKind::input,
-                  fmt::format("\"{}\" is damaged: row y={} counts {} samples but stores {}; copy or "
-                              "render the file again",
-                              checked_.info.path, y, sum, checked_.rows.samples[static_cast<std::size_t>(row)]));
+  const std::vector<std::uint32_t>& counts(int number) {
+    const Row& row = checked_.rows.rows[static_cast<std::size_t>(number)];
+    read(number, row.counts, row.counts_bytes, counts_.size() * sizeof(std::uint32_t), "counts");
+    std::uint32_t before = 0;
+    for (std::size_t x = 0; x < counts_.size(); ++x) {  // stored as sums from the left
+      const std::uint32_t sum = word_at(unpacked_.data() + x * sizeof(std::uint32_t));
+      if (sum < before) fail(number, "has counts that decrease");
+      counts_[x] = sum - before;
+      before = sum;
+    }
+    if (std::uint64_t{before} * checked_.sample_bytes != row.unpacked)
+      fail(number, fmt::format("counts {} samples but stores {}", before, row.unpacked / checked_.sample_bytes));
     return counts_;
   }
 
+  /// The samples of one row: for each channel of the file, in its order, the values of all samples.
+  const std::vector<std::uint8_t>& samples(int number) {
+    const Row& row = checked_.rows.rows[static_cast<std::size_t>(number)];
+    read(number, row.counts + row.counts_bytes, row.packed, row.unpacked, "samples");
+    return unpacked_;
+  }
+
  private:
-  Imf::DeepScanLineInputFile& file_;
+  void read(int number, std::uint64_t begin, std::size_t packed, std::size_t unpacked, const char* what) {
+    packed_.resize(packed);
+    unpacked_.resize(unpacked);
+    bytes_.read(begin, packed_.data(), packed, what);
+    if (!unpacker_.unpack(packed_, unpacked_)) fail(number, fmt::format("has {} that cannot be unpacked", what));
+  }
+
+  [[noreturn]] void fail(int number, const std::string& what) const {
+    throw Error(ErrorKind::input, fmt::format("\"{}\" is damaged: row y={} {}; copy or render the file again",
+                                              checked_.info.path, checked_.info.data_window.y + number, what));
+  }
+
   const CheckedFile& checked_;
-  std::vector<unsigned> counts_;
+  FileBytes bytes_;
+  Unpacker unpacker_;
+  std::vector<std::uint8_t> packed_, unpacked_;
+  std::vector<std::uint32_t> counts_;
 };
 
-// Calls use(counts) for every row from top to bottom.
-template <class Use>
-void for_each_row(Imf::DeepScanLineInputFile& file, const CheckedFile& checked, Use use) {
-  CountReader reader(file, checked);
-  Imf::DeepFrameBuffer frame;
-  frame.insertSampleCountSlice(reader.slice());
-  file.setFrameBuffer(frame);
-  for (int row = 0; row < checked.info.data_window.height; ++row) use(reader.read(row));
+// Where the values of a channel stand in an unpacked row, and where they go.
+struct Target {
+  std::size_t begin = 0;  ///< bytes a sample of the channels before it
+  bool half_float = false;
+  std::size_t column = 0;  ///< of the record
+};
+
+std::vector<Target> targets_of(const CheckedFile& checked, const SampleLayout& layout) {
+  std::vector<Target> targets;
+  std::size_t begin = 0;
+  for (const SampleFileChannel& channel : checked.info.channels) {
+    if (!channel.slot.empty())
+      targets.push_back({begin, channel.type == PixelType::half_float, *layout.find(channel.slot)});
+    begin += type_size(channel.type);
+  }
+  return targets;
 }
 
-// Reads the samples of a file into a buffer whose first_sample is known.
-class ValueReader {
- public:
-  ValueReader(Imf::DeepScanLineInputFile& file, const CheckedFile& checked, SampleBuffer& samples)
-      : file_(file), counts_(file, checked), samples_(samples) {
-    const auto width = static_cast<std::size_t>(samples.data_window.width);
-    pointers_.resize(samples.layout.size() * width);
-    Imf::DeepFrameBuffer frame;
-    frame.insertSampleCountSlice(counts_.slice());
-    for (const SampleFileChannel& channel : checked.info.channels) {
-      if (channel.slot.empty()) continue;
-      const std::size_t column = *samples.layout.find(channel.slot);
-      char* base = row_base(pointers_.data() + column * width, samples.data_window.x);
-      // The record's stride spreads a channel's values over the records; half becomes float on the way.
-      frame.insert(channel.name,
-                   Imf::DeepSlice(Imf::FLOAT, base, sizeof(char*), 0, samples.layout.size() * sizeof(float)));
+// Spreads the values of an unpacked row over its records, some records at a time: these stay in the cache meanwhile.
+void spread(const std::vector<std::uint8_t>& row, const std::vector<Target>& targets, std::size_t samples,
+            float* records, std::size_t stride) {
+  constexpr std::size_t block = 64;
+  for (std::size_t first = 0; first < samples; first += block) {
+    const std::size_t count = std::min(block, samples - first);
+    for (const Target& target : targets) {
+      float* out = records + first * stride + target.column;
+      const std::uint8_t* values = row.data() + target.begin * samples + first * (target.half_float ? 2 : 4);
+      for (std::size_t i = 0; i < count; ++i)
+        out[i * stride] = target.half_float ? half_at(values + 2 * i) : float_at(values + 4 * i);
     }
-    // A second frame buffer makes OpenEXR forget the counts, so each row reads them again.
-    file.setFrameBuffer(frame);
   }
-
-  void read_row(int row) {
-    const auto width = static_cast<std::size_t>(samples_.data_window.width);
-    const std::vector<unsigned>& counts = counts_.read(row);
-    const std::uint32_t* first = samples_.first_sample.data() + static_cast<std::size_t>(row) * width;
-    for (std::size_t x = 0; x < width; ++x) {
-      // OpenEXR writes as many samples as the counts say now; a file that changed meanwhile must not write elsewhere.
-      if (counts[x] != first[x + 1] - first[x]) throw std::runtime_error("it changed while it was read");
-      // A pixel without samples has no place in the buffer, and a frame without samples has no buffer.
-      for (std::size_t column = 0; column < samples_.layout.size(); ++column)
-        pointers_[column * width + x] =
-            counts[x] == 0 ? nullptr : reinterpret_cast<char*>(samples_.record(first[x]) + column);
-    }
-    file_.readPixels(samples_.data_window.y + row);
-  }
-
- private:
-  Imf::DeepScanLineInputFile& file_;
-  CountReader counts_;
-  SampleBuffer& samples_;
-  std::vector<char*> pointers_;  ///< [column][x]: where the first sample of the pixel goes
-};
+}
 
 void check_sample_budget(const CheckedFile& file, std::size_t columns, std::uint64_t limit) {
   check_sample_count(file.info);
   const std::uint64_t pixels = file.info.data_window.pixel_count();
-  const std::uint64_t pointers = static_cast<std::uint64_t>(file.info.data_window.width) * columns * sizeof(char*);
   const std::uint64_t values = file.info.sample_count * columns * sizeof(float);
-  check_budget(file.info.path, values + (pixels + 1) * sizeof(std::uint32_t) + pointers + reader_bytes(file), limit);
+  check_budget(file.info.path, values + (pixels + 1) * sizeof(std::uint32_t) + reader_bytes(file), limit);
 }
 
 }  // namespace
@@ -160,36 +177,42 @@ SampleFileInfo inspect_deep(const std::string& path, const SampleReadOptions& op
   CheckedFile checked = check_file(path, options);
   check_budget(path, reader_bytes(checked), options.max_memory);
   return guard_input(path, [&] {
-    Imf::StdIFStream stream(path.c_str());
-    Imf::DeepScanLineInputFile file(stream, 0);  // 0: no threads of its own
+    RowReader reader(checked);
     SampleFileInfo& info = checked.info;
     info.min_samples = std::numeric_limits<std::uint32_t>::max();
-    for_each_row(file, checked, [&](const std::vector<unsigned>& counts) {
+    for (int row = 0; row < info.data_window.height; ++row) {
+      const std::vector<std::uint32_t>& counts = reader.counts(row);
       const auto [low, high] = std::minmax_element(counts.begin(), counts.end());
       info.min_samples = std::min(info.min_samples, *low);
       info.max_samples = std::max(info.max_samples, *high);
       info.empty_pixels += static_cast<std::uint64_t>(std::count(counts.begin(), counts.end(), 0U));
-    });
+    }
     return info;
   });
 }
 
 SampleBuffer read_deep(const std::string& path, const SampleReadOptions& options) {
-  const CheckedFile checked = check_file(path, options);
+  CheckedFile checked = check_file(path, options);
+  leave_out_unwanted(checked.info, options);
   SampleBuffer samples = empty_buffer(checked.info);
   check_sample_budget(checked, samples.layout.size(), options.max_memory);
   guard_input(path, [&] {
-    Imf::StdIFStream stream(path.c_str());
-    Imf::DeepScanLineInputFile file(stream, 0);
+    RowReader reader(checked);
     samples.first_sample.reserve(samples.data_window.pixel_count() + 1);
     samples.first_sample.push_back(0);
-    for_each_row(file, checked, [&](const std::vector<unsigned>& counts) {
-      for (const unsigned count : counts) samples.first_sample.push_back(samples.first_sample.back() + count);
-    });
+    for (int row = 0; row < samples.data_window.height; ++row)
+      for (const std::uint32_t count : reader.counts(row))
+        samples.first_sample.push_back(samples.first_sample.back() + count);
     // All allocations are counted in check_sample_budget().
-    samples.values.resize(samples.sample_count() * samples.layout.size());
-    ValueReader reader(file, checked, samples);
-    for (int row = 0; row < samples.data_window.height; ++row) reader.read_row(row);
+    allocate_values(samples);
+    const std::vector<Target> targets = targets_of(checked, samples.layout);
+    std::size_t first = 0;
+    for (int row = 0; row < samples.data_window.height; ++row) {
+      const std::vector<std::uint8_t>& unpacked = reader.samples(row);
+      const std::size_t count = unpacked.size() / checked.sample_bytes;
+      spread(unpacked, targets, count, samples.record(first), samples.layout.size());
+      first += count;
+    }
   });
   return samples;
 }

@@ -154,9 +154,11 @@ void check_chunk(FileBytes& file, std::uint64_t offset, int y, const Window& win
     reject_damaged(file, fmt::format("row y={} claims {} bytes of samples, expected a multiple of the {} bytes of a "
                                      "sample below 2 GB",
                                      y, unpacked, sample_bytes));
-  const std::uint64_t samples = unpacked / sample_bytes;
-  rows.samples.push_back(static_cast<std::uint32_t>(samples));
-  rows.total_samples += samples;
+  if (table > static_cast<std::uint64_t>(window.width) * 4 || packed > unpacked)
+    reject_damaged(file, fmt::format("row y={} is larger packed than unpacked", y));
+  rows.rows.push_back({offset + chunk_header_bytes, static_cast<std::uint32_t>(table),
+                       static_cast<std::uint32_t>(packed), static_cast<std::uint32_t>(unpacked)});
+  rows.total_samples += unpacked / sample_bytes;
   rows.largest_row_bytes = std::max(rows.largest_row_bytes, unpacked);
 }
 
@@ -189,7 +191,7 @@ RowTable scan_rows(FileBytes& file, std::uint64_t chunk_table, const Window& dat
                              "only {} follow; copy or render the file again",
                              height, height * (8 + chunk_header_bytes), left));
   RowTable rows;
-  rows.samples.reserve(height);
+  rows.rows.reserve(height);
   std::array<std::uint64_t, 512> offsets{};  // read in blocks: the table and the chunks are far apart
   for (std::uint64_t row = 0; row < height; ++row) {
     if (row % offsets.size() == 0)

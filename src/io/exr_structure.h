@@ -22,9 +22,15 @@ constexpr std::uint64_t max_header_bytes = std::uint64_t{64} << 20;
 /// Throws Error(input) that says what the file is instead.
 std::uint64_t check_structure(FileBytes& file);
 
-/// What the chunk headers say: a deep scan-line chunk is one row of pixels.
+/// What a chunk's header says: a deep scan-line chunk is one row of pixels.
+struct Row {
+  std::uint64_t counts = 0;                ///< position of the packed counts; the packed samples follow
+  std::uint32_t counts_bytes = 0;          ///< packed
+  std::uint32_t packed = 0, unpacked = 0;  ///< bytes of the samples
+};
+
 struct RowTable {
-  std::vector<std::uint32_t> samples;  ///< [height] samples in each row
+  std::vector<Row> rows;  ///< [height]
   std::uint64_t total_samples = 0;
   std::uint64_t largest_row_bytes = 0;  ///< unpacked bytes of samples in the largest row
 };

@@ -40,30 +40,38 @@ FileBytes::FileBytes(const std::string& path) : path_(path) {
 
 FileBytes::~FileBytes() { ::close(descriptor_); }
 
-void FileBytes::fill_block(std::uint64_t offset) {
+std::size_t FileBytes::read_some(std::uint64_t offset, void* target, std::size_t count) const {
   ssize_t got = 0;
-  do got = ::pread(descriptor_, block_.data(), block_.size(), static_cast<off_t>(offset));
+  do got = ::pread(descriptor_, target, count, static_cast<off_t>(offset));
   while (got < 0 && errno == EINTR);
   if (got < 0)
     throw Error(ErrorKind::input, fmt::format("\"{}\" cannot be read ({}); check the disk or copy the file again",
                                               path_, std::system_category().message(errno)));
-  block_begin_ = offset;
-  block_size_ = static_cast<std::size_t>(got);
+  return static_cast<std::size_t>(got);
+}
+
+std::size_t FileBytes::read_through_block(std::uint64_t offset, void* target, std::size_t count) {
+  // Names are read byte by byte: one system call for a block of them.
+  if (offset < block_begin_ || offset >= block_begin_ + block_size_) {
+    block_size_ = read_some(offset, block_.data(), block_.size());
+    block_begin_ = offset;
+  }
+  const auto skip = static_cast<std::size_t>(offset - block_begin_);
+  const std::size_t part = std::min(count, block_size_ - skip);
+  std::memcpy(target, block_.data() + skip, part);
+  return part;
 }
 
 void FileBytes::read(std::uint64_t offset, void* target, std::size_t count, const char* what) {
   auto* out = static_cast<std::uint8_t*>(target);
   while (count > 0) {
-    // Names are read byte by byte: one system call for a block of them.
-    const bool in_block = offset >= block_begin_ && offset < block_begin_ + block_size_;
-    if (!in_block && offset < size_) fill_block(offset);
-    if (offset >= size_ || block_size_ == 0)
+    const std::size_t wanted = offset < size_ ? count : 0;
+    const std::size_t part =
+        wanted >= block_.size() ? read_some(offset, out, wanted) : read_through_block(offset, out, wanted);
+    if (part == 0)
       throw Error(ErrorKind::input,
                   fmt::format("\"{}\" is truncated: it ends after {} bytes inside {}; copy or render the file again",
                               path_, size_, what));
-    const auto skip = static_cast<std::size_t>(offset - block_begin_);
-    const std::size_t part = std::min(count, block_size_ - skip);
-    std::memcpy(out, block_.data() + skip, part);
     out += part;
     offset += part;
     count -= part;

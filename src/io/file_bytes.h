@@ -27,7 +27,9 @@ class FileBytes {
   std::uint64_t u64(std::uint64_t offset, const char* what);
 
  private:
-  void fill_block(std::uint64_t offset);
+  /// Copies up to `count` bytes and returns how many; 0 at the end of the file.
+  std::size_t read_some(std::uint64_t offset, void* target, std::size_t count) const;
+  std::size_t read_through_block(std::uint64_t offset, void* target, std::size_t count);
 
   std::string path_;
   int descriptor_ = -1;

@@ -119,14 +119,15 @@ SampleFileInfo inspect_raw(const std::string& path, const SampleReadOptions& opt
 SampleBuffer read_raw(const std::string& path, const SampleReadOptions& options) {
   return guard_input(path, [&] {
     FileBytes file(path);
-    const CheckedFile checked = check_file(file, options);
+    CheckedFile checked = check_file(file, options);
+    leave_out_unwanted(checked.info, options);
     SampleBuffer samples = empty_buffer(checked.info);
     check_sample_budget(checked, samples.layout.size(), options.max_memory);
     samples.first_sample.assign(samples.data_window.pixel_count() + 1, 0);
     for_each_count(file, checked, [&](std::uint32_t count, std::uint64_t pixel) {
       samples.first_sample[pixel + 1] = samples.first_sample[pixel] + count;
     });
-    samples.values.resize(samples.sample_count() * samples.layout.size());
+    allocate_values(samples);
     std::uint64_t begin = checked.planes + samples.data_window.pixel_count() * word;
     for (const SampleFileChannel& channel : checked.info.channels) {
       if (!channel.slot.empty()) read_plane(file, begin, *samples.layout.find(channel.slot), samples);

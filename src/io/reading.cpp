@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "io/channel_names.h"
@@ -32,6 +33,18 @@ void check_read_back(const std::string& path, const SampleFileInfo& back, const 
     throw Error(ErrorKind::output, fmt::format("\"{}\" was not written correctly: {} of {} samples came back; check "
                                                "the disk and write it again",
                                                path, back.sample_count, samples.sample_count()));
+}
+
+void leave_out_unwanted(SampleFileInfo& info, const SampleReadOptions& options) {
+  if (!options.slots) return;
+  for (SampleFileChannel& channel : info.channels)
+    if (std::find(options.slots->begin(), options.slots->end(), channel.slot) == options.slots->end())
+      channel.slot.clear();
+}
+
+void allocate_values(SampleBuffer& samples) {
+  samples.values.reserve(samples.sample_count() * (samples.layout.size() + spare_columns));
+  samples.values.resize(samples.sample_count() * samples.layout.size());
 }
 
 SampleBuffer empty_buffer(const SampleFileInfo& info) {

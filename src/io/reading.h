@@ -18,6 +18,12 @@ void check_sample_count(const SampleFileInfo& info);
 /// good file. `back` is what was read of the temporary file.
 void check_read_back(const std::string& path, const SampleFileInfo& back, const SampleBuffer& samples);
 
+/// Takes their slots from the channels that are not to be read.
+void leave_out_unwanted(SampleFileInfo& info, const SampleReadOptions& options);
+
+/// Makes the values of all samples, 0, with spare_columns behind them. first_sample is known.
+void allocate_values(SampleBuffer& samples);
+
 /// A buffer with the file's windows, metadata and slots, without samples.
 SampleBuffer empty_buffer(const SampleFileInfo& info);
 

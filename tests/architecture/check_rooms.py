@@ -26,7 +26,7 @@ ROOMS = {
 }
 # Third-party headers, each in one room only (beside the tests).
 LIBRARIES = {
-    "OpenEXR/": {"src/io"}, "Imf": {"src/io"}, "OpenImageIO/": {"src/images"}, "CL/": {"src/opencl"}, "CLI/": {"src/cli"},
+    "OpenEXR/": {"src/io"}, "Imf": {"src/io"}, "libdeflate": {"src/io"}, "OpenImageIO/": {"src/images"}, "CL/": {"src/opencl"}, "CLI/": {"src/cli"},
     "embree3/": {"src/scene"}, "tbb/": {"src", "src/cpu", "src/scene"}, "benchmark/": {"bench"},
     "fmt/": {"src", "src/opencl", "src/conformance", "src/io", "src/images", "src/metrics", "src/scene", "src/cli", "src/bench"},
     "nlohmann/": {"src/cli", "src/io", "src/conformance", "src/bench"},  # what is printed as JSON; the header of raw sample files

@@ -62,6 +62,36 @@ class SampleFilesTest(unittest.TestCase):
         self.expect(run("convert", self.folder / "c.rpf", "-o", self.folder / "d.exr"), 0)
         self.assertEqual((self.folder / "b.exr").read_bytes(), (self.folder / "d.exr").read_bytes())
 
+    def test_predicted_memory_is_an_upper_bound(self):
+        def peak_mb(*arguments):
+            # In between a process without numpy: a child's peak begins with its parent's memory.
+            code = ("import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True); "
+                    "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)")
+            command = [sys.executable, "-c", code, RPF, *map(str, arguments)]
+            return int(subprocess.run(command, capture_output=True, text=True, check=True).stdout) / 1024
+
+        names = ["R", "G", "B", "film.X", "film.Y", "random.lens.U", "random.lens.V", "random.time"]
+        names += [f"feature.{group}.{axis}" for group in ("N", "P", "albedo", "N2", "P2") for axis in "XYZ"]
+        counts = np.full(300 * 200, 16)
+        values = np.random.default_rng(1).random(counts.sum(), dtype=np.float32)
+        big, small, output = self.folder / "big.rpf", self.folder / "small.rpf", self.folder / "out.exr"
+        write_samples(big, [0, 0, 300, 200], counts, {name: values for name in names})
+        write_samples(small, [0, 0, 1, 1], counts[:1], {name: values[:16] for name in names})
+        options = ["-q", "--backend=cpu", "-t", "1", "--boxes", "1"]
+        for profile in ("thesis", "paper"):  # thesis: two more columns than were read
+            with self.subTest(profile=profile):
+                text = run(big, "--dry-run", *options, "--profile", profile).stdout
+                predicted = float(re.search(r"peak memory: (\d+) MB", text).group(1))
+                used = peak_mb(big, "-o", output, *options, "--profile", profile) - peak_mb(small, "-o", output, *options)
+                self.assertLess(used, predicted * 1.02)  # pages, buffers of files
+                self.assertGreater(used, predicted * 0.75)
+                self.assertLess(used, 1.5 * counts.sum() * len(names) * 4 / 2**20)
+        # What constant channels took is given back, in time for the second set of colors.
+        constant = {name: values * 0 if "2" in name else values for name in names}
+        write_samples(big, [0, 0, 300, 200], counts, constant)
+        used = peak_mb(big, "-o", output, *options, "--profile", "paper") - peak_mb(small, "-o", output, *options)
+        self.assertLess(used, predicted * 0.93)
+
     def test_half_stays_half_and_names_become_slots(self):
         same = self.folder / "same.exr"
         self.expect(run("convert", EXAMPLE, "-o", same), 0)

@@ -319,6 +319,25 @@ TEST(Filter, ReportsWhatThePassesDid) {
   EXPECT_EQ(result.report.random, (std::vector<std::string>{"lens.U", "lens.V", "time", "pixel.X", "pixel.Y"}));
 }
 
+TEST(Filter, SlotsThatAreNotNeededChangeNoBit) {
+  SampleBuffer samples = defocused_edge();
+  for (const char* slot : {"random.bsdf.U", "feature.P2.X", "feature.uv.U"}) {
+    test::add_channel(samples, slot, 0);
+    test::Dice dice(7);
+    for (std::size_t i = 0; i < samples.sample_count(); ++i) value_of(samples, i, slot) = 30 * dice();
+  }
+  using Groups = std::vector<std::string>;
+  for (const Groups& features : {Groups{"N", "P"}, Groups{"albedo"}, Groups{"P2"}, Groups{"uv"}, Groups{}})
+    for (const bool second_hits_reject : {false, true}) {
+      Settings settings = small_settings();
+      settings.features = features;
+      settings.reject_second_hit = second_hits_reject;
+      const std::vector<std::string> needed = needed_slots(samples.layout, settings);
+      ASSERT_LT(needed.size(), samples.layout.size());
+      EXPECT_EQ(filtered(test::with_slots(samples, needed), settings), filtered(samples, settings));
+    }
+}
+
 TEST(Filter, RefusesMoreMemoryThanAllowed) {
   Settings settings = small_settings();
   settings.max_memory = 1000;

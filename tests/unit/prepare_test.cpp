@@ -80,5 +80,19 @@ TEST(Clean, NotesWhatItFoundAndWhereFirst) {
   EXPECT_EQ(prepared.notes[1].y, 1);
 }
 
+TEST(Records, AreTheSameInPlaceAndElsewhereAlsoWhereTheyGrow) {
+  SampleBuffer tight = test::defocused_edge();
+  tight.values.shrink_to_fit();
+  SampleBuffer roomy = tight;
+  roomy.values.reserve(tight.values.size() + 2 * tight.sample_count());
+  const float* const place = roomy.values.data();
+  const std::size_t columns = tight.layout.size();
+  const PreparedFrame elsewhere = prepare(std::move(tight), {}), in_place = prepare(std::move(roomy), {});
+  EXPECT_EQ(in_place.frame.variables, columns + 1);  // two of the position inside the pixel; N.Y is constant
+  EXPECT_EQ(in_place.frame.records, elsewhere.frame.records);
+  EXPECT_EQ(in_place.frame.records.data(), place);
+  EXPECT_NE(in_place.frame.records, std::vector<float>(in_place.frame.records.size()));
+}
+
 }  // namespace
 }  // namespace rpf

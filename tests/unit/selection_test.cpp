@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "frame.h"
 #include "rpf/error.h"
+#include "rpf/filter.h"
 
 namespace rpf {
 namespace {
@@ -44,6 +47,26 @@ TEST(Selection, LeavesOutSecondHitsOnRequest) {
             (Slots{"feature.N.X", "feature.depth", "feature.P.X", "feature.P2.X"}));
   settings.random = Slots{"first"};  // a word for features only
   EXPECT_THROW(select_channels(both, settings), Error);
+}
+
+TEST(NeededSlots, AreWhatIsModeledAndWhatMeasuresTheScene) {
+  Settings settings;
+  const Slots always = {"R", "G", "B", "film.X", "film.Y"};
+  const auto needed_beside = [&] {
+    Slots slots = needed_slots(layout, settings);
+    EXPECT_TRUE(std::equal(always.begin(), always.end(), slots.begin()));
+    slots.erase(slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(always.size()));
+    return slots;
+  };
+  EXPECT_EQ(needed_beside(), (Slots{"random.lens.U", "random.lens.V", "random.time", "feature.N.X", "feature.P.X",
+                                    "feature.depth", "feature.hit"}));
+  settings.random = Slots{"bsdf", "pixel"};
+  settings.features = Slots{"depth"};
+  EXPECT_EQ(needed_beside(), (Slots{"random.bsdf.U", "feature.depth", "feature.hit"}));
+  settings.features = Slots{"P"};  // normals tell hits from misses
+  EXPECT_EQ(needed_beside(), (Slots{"random.bsdf.U", "feature.N.X", "feature.P.X", "feature.hit"}));
+  settings.filter_features = true;
+  EXPECT_EQ(needed_beside(), (Slots{"random.bsdf.U", "feature.N.X", "feature.P.X", "feature.depth", "feature.hit"}));
 }
 
 TEST(Selection, NamesWhatIsThereWhenAGroupIsNot) {

@@ -84,6 +84,15 @@ Settings small_settings() {
   return settings;
 }
 
+SampleBuffer with_slots(const SampleBuffer& samples, const std::vector<std::string>& slots) {
+  SampleBuffer some = samples;
+  some.layout.slots = slots;
+  some.values.clear();
+  for (std::size_t i = 0; i < samples.sample_count(); ++i)
+    for (const std::string& slot : slots) some.values.push_back(samples.record(i)[column(samples, slot)]);
+  return some;
+}
+
 float& value_of(SampleBuffer& samples, std::size_t sample, const std::string& slot) {
   return samples.record(sample)[column(samples, slot)];
 }
