@@ -14,9 +14,9 @@ const ImageLibrary& load() {
   if (library == nullptr) library = dlopen(RPF_IMAGES_FILE, RTLD_LAZY);
   const void* symbol = library == nullptr ? nullptr : dlsym(library, "rpf_image_library");
   if (symbol != nullptr) return *static_cast<const ImageLibrary*>(symbol);
-  throw Error(
-      ErrorKind::internal,
-      fmt::format("images other than .exr need " RPF_IMAGES_NAME " beside the program ({}); put it there", dlerror()));
+  throw Error(ErrorKind::internal, fmt::format("reading images, and writing others than .exr, needs " RPF_IMAGES_NAME
+                                               " beside the program ({}); put it there",
+                                               dlerror()));
 }
 
 }  // namespace
