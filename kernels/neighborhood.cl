@@ -1,7 +1,7 @@
 // Section 3: which samples a pixel is filtered with. A vector holds RPF_LANES variables of one record here.
 
-// What the pixel's own samples say, in the order of place_of(). Moments and tolerances are of the features, relative to the
-// shift. One vector more than there are features, for none is no size of an array.
+// What the pixel's own samples say, in the order of place_of(). Moments and tolerances are of the features, relative to
+// the shift. One vector more than there are features, for none is no size of an array.
 typedef struct {
   float16 shift[RPF_CHUNKS];
   float16 mean[RPF_FEATURE_CHUNKS + 1], deviation[RPF_FEATURE_CHUNKS + 1], tolerance[RPF_FEATURE_CHUNKS + 1];
@@ -48,14 +48,18 @@ static void feature_moments(const Frame* frame, const rpf_pass* pass, uint first
   out->tolerance[chunk] = count == 0 ? INFINITY : tolerance;
 }
 
-// The first own sample's variables, 0 where they are missing; c' is not shifted.
-static float16 shift_of(const Frame* frame, const rpf_pass* pass, uint first, int chunk) {
+// The variables of the first own sample that has them, missing where none has; c' is not shifted.
+static float16 shift_of(const Frame* frame, const rpf_pass* pass, uint first, uint own, int chunk) {
   const int16 is_variable = RPF_LANE_NUMBERS < RPF_VARIABLES - RPF_LANES * chunk;
-  return is_variable ? rpf_or_zero(load_chunk(frame, pass, first, chunk)) : 0.0f;
+  float16 shift = load_chunk(frame, pass, first, chunk);
+#if RPF_MISSING
+  for (uint i = 1; i < own; ++i) shift = rpf_is_missing(shift) ? load_chunk(frame, pass, first + i, chunk) : shift;
+#endif
+  return is_variable ? shift : 0.0f;
 }
 
 static void own_moments(const Frame* frame, const rpf_pass* pass, uint first, uint own, OwnMoments* out) {
-  for (int c = 0; c < RPF_CHUNKS; ++c) out->shift[c] = shift_of(frame, pass, first, c);
+  for (int c = 0; c < RPF_CHUNKS; ++c) out->shift[c] = shift_of(frame, pass, first, own, c);
   for (int c = 0; c < RPF_FEATURE_CHUNKS; ++c) feature_moments(frame, pass, first, own, c, out);
 }
 
@@ -201,9 +205,23 @@ static void store_column(const Slot* slot, uint place, uint block, float16 value
     slot->colors[(place - RPF_VARIABLES) * slot->blocks + block] = values;
 }
 
-// Records to columns, less the shift. Behind the last neighbor all values are missing, so that sums leave them out.
-static void fill_columns(const Frame* frame, const rpf_pass* pass, uint neighbors, const OwnMoments* moments,
+// What no own sample has is shifted by the first neighbor that has it, by 0 where none has.
+static void settle_shift(const Frame* frame, const rpf_pass* pass, uint neighbors, OwnMoments* moments,
                          const Slot* slot) {
+  for (int c = 0; c < RPF_CHUNKS; ++c) {
+    float16 shift = moments->shift[c];
+#if RPF_MISSING
+    for (uint j = 0; j < neighbors && any_lane(rpf_is_missing(shift)); ++j)
+      shift = rpf_is_missing(shift) ? load_chunk(frame, pass, slot->neighbors[j], c) : shift;
+#endif
+    moments->shift[c] = rpf_or_zero(shift);
+  }
+}
+
+// Records to columns, less the shift. Behind the last neighbor all values are missing, so that sums leave them out.
+static void fill_columns(const Frame* frame, const rpf_pass* pass, uint neighbors, OwnMoments* moments,
+                         const Slot* slot) {
+  settle_shift(frame, pass, neighbors, moments, slot);
   for (uint block = 0; block * RPF_LANES < neighbors; ++block)
     for (int c = 0; c < RPF_CHUNKS; ++c) {
       float16 rows[RPF_LANES];

@@ -42,10 +42,12 @@ class Sampler {
   int x_, y_;
 };
 
-void set_shift(const float* first_own, std::size_t variables, std::vector<float>& shift) {
-  shift.assign(first_own, first_own + variables);
-  for (float& value : shift)
-    if (kernel::rpf_is_missing(value)) value = 0;
+/// The variables of the first own sample that has them, missing where none has.
+void set_shift(const Frame& frame, std::uint32_t first, std::uint32_t own, std::vector<float>& shift) {
+  shift.assign(frame.record(first), frame.record(first) + frame.variables);
+  for (std::uint32_t i = 1; frame.has_missing && i < own; ++i)
+    for (std::size_t v = 0; v < shift.size(); ++v)
+      if (kernel::rpf_is_missing(shift[v])) shift[v] = frame.record(first + i)[v];
 }
 
 void append(Neighborhood& n, std::uint32_t sample, const float* record) {
@@ -122,13 +124,26 @@ void draw_candidates(const Frame& frame, const Plan& plan, const Sampler& sample
   n.drawn += static_cast<std::uint32_t>(n.candidates.size());
 }
 
+/// What no own sample has is shifted by the first neighbor that has it, by 0 where none has.
+void settle_shift(const Frame& frame, Neighborhood& n) {
+  const std::size_t variables = n.shift.size();
+  for (std::size_t v = 0; v < variables; ++v) {
+    if (!kernel::rpf_is_missing(n.shift[v])) continue;
+    for (std::uint32_t j = 0; j < n.size() && kernel::rpf_is_missing(n.shift[v]); ++j)
+      n.shift[v] = frame.record(n.neighbors[j])[v];
+    n.shift[v] = kernel::rpf_or_zero(n.shift[v]);
+    for (std::uint32_t j = 0; j < n.size(); ++j)
+      n.rows[j * variables + v] = frame.record(n.neighbors[j])[v] - n.shift[v];
+  }
+}
+
 }  // namespace
 
 void gather(const Frame& frame, const Plan& plan, int pass, std::uint32_t pixel, Neighborhood& n) {
   const std::uint32_t first = frame.first_sample[pixel], own = frame.samples(pixel);
   n.neighbors.clear();
   n.rows.clear();
-  set_shift(frame.record(first), frame.variables, n.shift);
+  set_shift(frame, first, own, n.shift);
   for (std::uint32_t i = 0; i < own; ++i) append(n, first + i, frame.record(first + i));
   set_tolerances(plan, n);
 
@@ -143,6 +158,7 @@ void gather(const Frame& frame, const Plan& plan, int pass, std::uint32_t pixel,
       if (is_accepted(n, record, plan.variables.features())) append(n, candidate, record);
     }
   }
+  settle_shift(frame, n);
 }
 
 }  // namespace rpf

@@ -14,7 +14,7 @@ struct Neighborhood {
   std::vector<std::uint32_t> candidates;                  ///< samples drawn, the latest portion
   std::uint32_t drawn = 0;                                ///< samples drawn in all
   std::vector<std::uint32_t> neighbors;                   ///< [N] samples; the pixel's own come first
-  std::vector<float> shift;                               ///< [V] the first own sample's values, 0 where missing
+  std::vector<float> shift;                               ///< [V] of the first neighbor that has it, else 0
   std::vector<float> rows;                                ///< [N][V] values less the shift; normalize() works in place
   std::vector<float> own_mean, own_deviation, tolerance;  ///< [m]
   LaneSums sums;

@@ -3,6 +3,9 @@
 #include <cmath>
 
 #include "arbitrary.h"
+#include "io/reading.h"
+#include "plan.h"
+#include "rpf/error.h"
 #include "tolerances.h"
 
 namespace rpf {
@@ -107,6 +110,19 @@ TEST(Counts, OfAThousandStayInsideTheHull) {
   Settings settings = small_settings();
   settings.box_widths = {3};
   EXPECT_EQ(outside_hull(filtered(samples, settings), samples), "");
+}
+
+TEST(Counts, BeyondTheLimitsAreRefused) {
+  SampleFileInfo info;
+  info.sample_count = 0xFFFFFFFEU;
+  EXPECT_NO_THROW(io::check_sample_count(info));
+  info.sample_count = 0xFFFFFFFFU;
+  EXPECT_THROW(io::check_sample_count(info), Error);
+  FrameFacts facts;
+  facts.width = facts.height = 1;
+  facts.crop = {0, 0, 1, 1};
+  facts.max_samples_per_pixel = (1U << 24) + 1;
+  EXPECT_THROW(make_plan(facts, small_settings()), Error);
 }
 
 // sigma^2 is 8 sigma_8^2 / s (T 5.10): the filter fades out.

@@ -112,9 +112,9 @@ MUTANTS = [
            "oracle second_hit_keep tolerance", "rejection: second hits take part"),
 
     # ---------------------------------------------------------------- 4. normalization
-    Mutant("shift_not_subtracted", NEIGHBORHOOD, "shift.assign(first_own, first_own + variables);", "shift.assign(variables, 0.0F);",
+    Mutant("shift_not_subtracted", NEIGHBORHOOD, "shift.assign(frame.record(first), frame.record(first) + frame.variables);", "shift.assign(frame.variables, 0.0F);",
            BOTH + "SurvivesAWorldOffsetThatTheInputSurvives/*", "normalization: large world positions"),
-    Mutant("shift_world_std", NEIGHBORHOOD, "shift.assign(first_own, first_own + variables);", "shift.assign(variables, 0.0F);",
+    Mutant("shift_world_std", NEIGHBORHOOD, "shift.assign(frame.record(first), frame.record(first) + frame.variables);", "shift.assign(frame.variables, 0.0F);",
            "oracle world_offset std", "normalization: large world positions"),
     Mutant("missing_as_zero", STATISTICS, "out.count[v] += missing ? 0 : 1;", "out.count[v] += 1;",
            "oracle missing_values mean", "normalization: missing values count"),
@@ -324,4 +324,16 @@ MUTANTS = [
            "BenchResults.AnInterruptedLineIsDropped", "sweep: the next line is glued to a torn one"),
     Mutant("bench_key", "src/bench/sweep_plan.cpp", "setting.options, round);", "setting.name, round);",
            "BenchPlan.KeysTellMeasurementsApart", "sweep: a setting is known by its label"),
+
+    # ---------------------------------------------------------------- extremes: the properties of docs/stability.md
+    Mutant("extremes_alpha_uncounted", CLEAN, "findings.alpha.add(pixel);", "findings.negative.add(pixel);",
+           "extremes BadAlpha.IsZeroAndCounted", "input: a bad alpha counts as negative radiance"),
+    Mutant("extremes_empty_uncounted", CLEAN, "findings.empty.add(pixel);", "findings.empty.add(0);",
+           "extremes Counts.OfZeroAreBlackToldAndHarmless", "input: another pixel without samples"),
+    Mutant("extremes_window", PREPARE, ": value - source.origin;", ": value;",
+           "extremes DataWindow.MayLieAnywhere", "input: the place of the data window"),
+    Mutant("extremes_shift_of_missing", NEIGHBORHOOD, "n.shift[v] = frame.record(n.neighbors[j])[v];", "n.shift[v] = 0;",
+           "extremes World.OffsetThatTheInputSurvivesKeepsEveryBit", "normalization: far worlds where own samples miss"),
+    Mutant("extremes_stretch", NUMERIC, "#define RPF_STRETCH 32", "#define RPF_STRETCH 100000",
+           "extremes Filtered.SumsOf24200WeightsAreWithinOneMillionth", "sums: equal weights are rounded the same way"),
 ]

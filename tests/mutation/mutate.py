@@ -88,8 +88,15 @@ def is_conformance(test):
     return test.startswith("conformance ")
 
 
+def is_extremes(test):
+    """Properties are written "extremes FILTER", with a filter of rpf_extremes_tests."""
+    return test.startswith("extremes ")
+
+
 def target_of(test):
     """The program that the test runs."""
+    if is_extremes(test):
+        return "rpf_extremes_tests"
     return "rpf_command" if is_conformance(test) else "rpf_trace" if is_oracle(test) else "rpf_unit_tests"
 
 
@@ -117,8 +124,8 @@ def run_oracle(work, case):
 
 
 def run_unit(work, test):
-    """Exit status and output of the unit tests that the filter names."""
-    return run([work / "build" / "tests" / "rpf_unit_tests", f"--gtest_filter={test}"], TEST_TIMEOUT)
+    """Exit status and output of the unit tests, or properties, that the filter names."""
+    return run([work / "build" / "tests" / target_of(test), f"--gtest_filter={test.split()[-1]}"], TEST_TIMEOUT)
 
 
 def reported_state(output, stage):

@@ -15,8 +15,8 @@ MUTANTS = [
            DOF + "device", "a * b + c in one rounding"),
 
     # ---------------------------------------------------------------- 3. neighborhood
-    Mutant("cl_shift", NEIGHBORHOOD, "out->shift[c] = shift_of(frame, pass, first, c);",
-           "out->shift[c] = shift_of(frame, pass, first + own - 1, c);", DOF + "shift", "another sample's values"),
+    Mutant("cl_shift", NEIGHBORHOOD, "out->shift[c] = shift_of(frame, pass, first, own, c);",
+           "out->shift[c] = shift_of(frame, pass, first + own - 1, 1, c);", DOF + "shift", "another sample's values"),
     Mutant("cl_own_mean", NEIGHBORHOOD, "count == 0 ? 0.0f : rpf_lanes_total(&sum) / number;",
            "count == 0 ? 0.0f : rpf_lanes_total(&sum) / (number + 1.0f);", DOF + "own_mean", "one sample too many"),
     Mutant("cl_own_deviation", NEIGHBORHOOD, "sqrt(rpf_lanes_total(&sum) / number)", "sqrt(rpf_lanes_total(&sum) / (number - 1.0f))",
