@@ -6,7 +6,6 @@ import struct
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 from pathlib import Path
 
@@ -17,6 +16,7 @@ from exr_file import ExrFile, pack  # noqa: E402
 CORPUS = PROJECT / "tests" / "fuzz" / "corpus" / "samples"
 CHANNELS = ["B", "G", "R", "film.X", "film.Y", "random.lens.U"]
 MEGABYTE = 1 << 20
+TIMEOUT = 300  # seconds, for a machine with more to do; the tests count CPU seconds
 
 
 class HostileFilesTest(unittest.TestCase):
@@ -27,19 +27,21 @@ class HostileFilesTest(unittest.TestCase):
     def tearDown(self):
         shutil.rmtree(self.folder)
 
-    def run_command(self, *arguments):
-        """Also measures: the largest memory of any command so far is in RUSAGE_CHILDREN."""
-        return subprocess.run([RPF, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", timeout=10, check=False)
+    def run_command(self, *arguments, seconds=1.0):
+        """At most so many CPU seconds. RUSAGE_CHILDREN also has the largest memory of any command so far."""
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        result = subprocess.run([RPF, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", timeout=TIMEOUT, check=False)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.assertLess(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, seconds)
+        return result
 
     def expect_refusal(self, code, *texts, megabytes=300):
         """Quickly, with far less memory than the file asks for, by every command that reads it."""
         for arguments in (["info", self.file], [self.file, "-o", self.output], ["convert", self.file, "-o", self.output]):
-            start = time.monotonic()
             result = self.run_command(*arguments)
             self.assertEqual(result.returncode, code, result.stdout)
             for text in texts:
                 self.assertIn(text, result.stdout)
-            self.assertLess(time.monotonic() - start, 5)  # one second alone on a machine
             self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, megabytes * 1024)
             self.assertFalse(self.output.exists())
 
@@ -82,23 +84,21 @@ class HostileFilesTest(unittest.TestCase):
         with open(raw, "wb") as file:
             file.write(header % (width, height) + pack("I", count) * (width * height))
             file.truncate(file.tell() + width * height * count * 6 * 4)  # zeros
-        subprocess.run([RPF, "convert", raw, "-o", self.file], check=True, capture_output=True, timeout=120)
+        subprocess.run([RPF, "convert", raw, "-o", self.file], check=True, capture_output=True, timeout=TIMEOUT)
         raw.unlink()
         print(f"{self.file.stat().st_size / 1024:.0f} KB", file=sys.stderr)
         self.assertLess(self.file.stat().st_size, MEGABYTE)
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss  # of the conversion
         for arguments in ([self.file, "-o", self.output], ["convert", self.file, "-o", self.output]):
-            start = time.monotonic()
             result = self.run_command(*arguments, "--max-memory", "100")
             self.assertEqual(result.returncode, 6, result.stdout)
             self.assertRegex(result.stdout, r"needs \d{3,4} MB.* the limit is 100 MB")
-            self.assertLess(time.monotonic() - start, 5)
         self.assertEqual(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, before)
 
     def sparse_raw_file(self, samples):
         with open(self.file, "wb") as file:
-            file.write(b'{"format": "rpf-raw-samples", "version": 1, "dataWindow": [0, 0, 2, 1], "channels": ["R", "G", "B", "film.X", "film.Y"]}\n')
-            file.write(pack("II", samples // 2, samples - samples // 2))
+            file.write(b'{"format": "rpf-raw-samples", "version": 1, "dataWindow": [0, 0, 1024, 1], "channels": ["R", "G", "B", "film.X", "film.Y"]}\n')
+            file.write(pack("I", samples // 1024) * 1024)
             file.truncate(file.tell() + samples * 5 * 4)
 
     def test_2_to_31_samples(self):

@@ -28,7 +28,7 @@ def command(*arguments):
 
 def run(*arguments, env=None, **keywords):
     keywords = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, **keywords}
-    return subprocess.run(command(*arguments), text=True, timeout=120, check=False, env={**os.environ, **(env or {})}, **keywords)
+    return subprocess.run(command(*arguments), text=True, timeout=300, check=False, env={**os.environ, **(env or {})}, **keywords)
 
 
 def without_the_rights_of_root():
@@ -166,7 +166,7 @@ class MachineTest(unittest.TestCase):
                 time.sleep(random.uniform(0, 3))
                 start = time.monotonic()
                 process.send_signal(number)
-                text, _ = process.communicate(timeout=60)
+                text, _ = process.communicate(timeout=300)
                 slowest = max(slowest, time.monotonic() - start)
                 # Before there is anything to clean up the signal ends the process, which a shell shows as the same number.
                 self.assertIn(process.returncode, (128 + number, -number), text)
@@ -193,7 +193,7 @@ class MachineTest(unittest.TestCase):
             with self.subTest(streams=streams):
                 script = f'"$@" {streams}; exit ${{PIPESTATUS[0]}}'
                 arguments = command(EXAMPLE, "-o", self.output, "-v", "--progress", "always", *QUICK)
-                result = subprocess.run(["bash", "-c", script, "bash", *arguments], capture_output=True, timeout=60, check=False)
+                result = subprocess.run(["bash", "-c", script, "bash", *arguments], capture_output=True, timeout=300, check=False)
                 self.assertEqual(result.returncode, code, result.stderr)
                 self.assertEqual(self.output.read_bytes(), expected)
                 self.output.unlink()
