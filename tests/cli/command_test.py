@@ -17,6 +17,8 @@ REFERENCE = PROJECT / "examples" / "dof-spheres.reference.exr"
 SHARED = PROJECT.parent / "shared" / "data"
 BACKEND = os.environ.get("RPF_BACKEND", "cpu")  # CMake runs this file once for each
 QUICK = ["--boxes", "5,3", "--crop", "16x12+20+20"]
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # a shell ignores them for what it starts in the background
+    signal.signal(number, signal.SIG_DFL)
 
 
 def run(*arguments, env=None, **keywords):

@@ -12,6 +12,8 @@ from pathlib import Path
 RPF, PROJECT = sys.argv[1], Path(sys.argv[2]).resolve()
 EXAMPLE = PROJECT / "examples" / "dof-spheres.samples.exr"
 QUICK = ["--boxes", "5,3", "--crop", "16x12+20+20", "-q"]
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # a shell ignores them for what it starts in the background
+    signal.signal(number, signal.SIG_DFL)
 
 
 def run(*arguments, **environment):

@@ -20,6 +20,8 @@ QUICK = ["--boxes", "5,3", "--crop", "16x12+20+20"]
 LONG = ["--boxes", "55,55,55", "--samples-factor", "4"]
 OLD = b"the old output"
 PR_CAPBSET_DROP, DAC_CAPABILITIES = 24, (1, 2, 3)  # linux/prctl.h, linux/capability.h: override, read and search, owner
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # a shell ignores them for what it starts in the background
+    signal.signal(number, signal.SIG_DFL)
 
 
 def command(*arguments):
