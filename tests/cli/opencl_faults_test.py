@@ -163,7 +163,7 @@ class OpenClFaults(unittest.TestCase):
         time.sleep(6)  # by then the kernel is compiled and runs
         started = time.monotonic()
         process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(), 130)
+        self.assertIn(process.wait(), (130, -signal.SIGINT))
         self.assertLess(time.monotonic() - started, 2)
         self.assertFalse(self.output.exists())
 
