@@ -118,7 +118,7 @@ void remove_damaged(const std::vector<fs::path>& programs) {
 }
 
 void remove_forgotten_files(const fs::path& folder) {
-  constexpr auto forgotten = std::chrono::hours(24);
+  constexpr auto forgotten = std::chrono::hours(1);
   std::error_code failed;
   for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
     if (entry->path().filename().string().rfind("tempfile_", 0) != 0) continue;

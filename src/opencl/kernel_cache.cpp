@@ -1,5 +1,6 @@
 #include "opencl/kernel_cache.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -13,6 +14,7 @@
 
 #include "opencl/cache_index.h"
 #include "opencl/cache_seal.h"
+#include "rpf/error.h"
 
 namespace rpf {
 namespace {
@@ -32,11 +34,14 @@ fs::path wanted_folder() {
   return {};
 }
 
-/// Creates the folder and a file in it: permissions alone do not tell of full disks and read-only mounts.
-bool is_writable(const fs::path& folder) {
+/// PoCL ends the process where a disk is full. A program takes half a megabyte, and somewhat more while it is compiled.
+constexpr std::uintmax_t needed_space = 16U << 20U;
+
+/// Creates the folder and a file in it: permissions alone do not tell of read-only mounts.
+bool is_usable(const fs::path& folder) {
   std::error_code failed;
   fs::create_directories(folder, failed);
-  if (failed) return false;
+  if (failed || fs::space(folder, failed).available < needed_space || failed) return false;
   const fs::path probe = folder / (".rpf-probe-" + std::to_string(getpid()));
   bool written = false;
   {
@@ -75,11 +80,14 @@ fs::path& our_folder() {
 void prepare() {
   if (!environment("POCL_CACHE_DIR").empty()) return;
   fs::path folder = wanted_folder();
-  if (folder.empty() || !is_writable(folder)) {
+  if (folder.empty() || !is_usable(folder)) {
     static const PrivateFolder own;
     folder = own.path();
+    if (folder.empty() || !is_usable(folder))
+      throw Error(ErrorKind::device, fmt::format("no folder for compiled kernels, not even below {}: {} MB that can be "
+                                                 "written to are needed; set RPF_CACHE_DIR, or use --backend=cpu",
+                                                 fs::temp_directory_path().string(), needed_space >> 20U));
   }
-  if (folder.empty()) return;  // PoCL's own default is as good as anything then
   our_folder() = folder;
   remove_forgotten_files(folder);
   setenv("POCL_CACHE_DIR", folder.c_str(), 1);

@@ -65,6 +65,13 @@ def check_include(file, name):
             failures.append(f"{place} includes {name}: allowed in {sorted(rooms)} only")
 
 
+def check_silence(file, text):
+    """The library never prints and never exits; what it knows it throws or returns."""
+    if file.is_relative_to(PROJECT / "src") and room_of(file) != "src/cli":
+        for word in re.findall(r"\b(?:std::(?:cout|cerr|clog|exit|abort|terminate|quick_exit)|fmt::print|f?printf|puts|_exit)\b", text):
+            failures.append(f"{file.relative_to(PROJECT)} has {word}: only src/cli prints and ends the process")
+
+
 def sources():
     for folder in ("include", "kernels", "src", "tests", "bench", "examples"):
         for file in sorted((PROJECT / folder).rglob("*")):
@@ -88,6 +95,7 @@ def main():
             failures.append(f"{file.relative_to(PROJECT)}: {len(text.splitlines())} lines, at most {LONGEST_FILE} are wanted")
         if file.suffix == ".py":
             continue
+        check_silence(file, text)
         for name in re.findall(r'^\s*#include [<"]([^>"]+)[>"]', text, re.M):
             check_include(file, name)
     check_readme()

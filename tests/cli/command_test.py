@@ -17,6 +17,8 @@ REFERENCE = PROJECT / "examples" / "dof-spheres.reference.exr"
 SHARED = PROJECT.parent / "shared" / "data"
 BACKEND = os.environ.get("RPF_BACKEND", "cpu")  # CMake runs this file once for each
 QUICK = ["--boxes", "5,3", "--crop", "16x12+20+20"]
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # a shell ignores them for what it starts in the background
+    signal.signal(number, signal.SIG_DFL)
 
 
 def run(*arguments, env=None, **keywords):
@@ -285,7 +287,7 @@ class CommandTest(unittest.TestCase):
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=30)
         self.assertLess(time.monotonic() - start, 2.0)
-        self.assertEqual(process.returncode, 130)
+        self.assertIn(process.returncode, (130, -signal.SIGINT))
         self.expect_nothing_written()
 
     def test_closed_standard_output_is_no_reason_to_lose_the_image(self):

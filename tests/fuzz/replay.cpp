@@ -1,4 +1,5 @@
-// Runs a fuzz target on every file of the folders that are named: the corpus as a plain test, in every build, without clang.
+// Runs a fuzz target on every file of the folders that are named: the corpus as a plain test, in every build, without
+// clang.
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>

@@ -13,5 +13,6 @@ case $subject in
     export ASAN_OPTIONS=detect_leaks=0
     set -- -max_len=4096 -detect_leaks=0 ;;
 esac
-exec "$build/tests/fuzz/fuzz_$subject" "$@" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=4096 -print_final_stats=1 \
+# A minute, so that a machine with more to do does not look like a hang; milliseconds are usual.
+exec "$build/tests/fuzz/fuzz_$subject" "$@" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=4096 -print_final_stats=1 \
   -artifact_prefix="$build/found/$subject-" "$build/corpus/$subject" "$here/corpus/$subject"
