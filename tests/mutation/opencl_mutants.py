@@ -72,7 +72,7 @@ MUTANTS = [
            "if (samples_of(frame, pass, pixel) > 0 && (pixel & 1)) return pixel;",
            "conformance statistics-block/2 bins", "a block's pixels at even places do not measure"),
     Mutant("cl_members", FILTER, "RPF_PHASES > 3 ? pixel == leader : 0", "RPF_PHASES > 3",
-           "conformance statistics-block/2 any", "every pixel of a block measures"),
+           "conformance statistics-block/2 bins", "every pixel of a block measures"),
 
     # ---------------------------------------------------------------- 6., 7. filter and outliers
     Mutant("cl_distance", WEIGHTING, "distance[i] += difference * difference;", "distance[i] += fabs(difference);",
