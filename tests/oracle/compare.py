@@ -43,13 +43,13 @@ class TraceDecisions(oracle.Decisions):
         self.close_calls["neighbors"] += int((choice != oracle.accepted(distance, limit)).sum())
         return choice
 
-    def bins(self, normalized, K):
-        own, traced = oracle.bins_of(normalized, K), np.asarray(self.traced["bins"])
+    def bins(self, normalized, K, n):
+        own, traced = oracle.bins_of(normalized[:n], K), np.asarray(self.traced["bins"])
         if traced.shape != own.shape:
             return own
         slack = normalized_bound(normalized)
-        possible = ((traced >= oracle.bins_of(normalized - slack, K))
-                    & (traced <= oracle.bins_of(normalized + slack, K)))
+        possible = ((traced >= oracle.bins_of(normalized[:n] - slack, K))
+                    & (traced <= oracle.bins_of(normalized[:n] + slack, K)))
         self.close_calls["bins"] += int((possible & (traced != own)).sum())
         return np.where(possible, traced, own)
 
@@ -173,7 +173,7 @@ def check_neighborhood(report, frame, pixel, traced, stages, where):
 
 
 def check_statistics(report, frame, traced, stages, where):
-    """Moments over N, normalized values, bins and histograms."""
+    """Moments over N and normalized values; bins and histograms of the pixel that measured."""
     magnitude, span = spread(frame.values[stages["neighbors"]])
     bounds = {"mean": TOLERANCE["mean"] * magnitude, "std": TOLERANCE["std"] * span,
               "normalized": normalized_bound(stages["normalized"]), "bins": 0}
@@ -198,7 +198,7 @@ def check_histograms(report, frame, traced, stages, where):
 
 def check_dependencies(report, frame, traced, stages, units_per_bit, where):
     """Mutual information of every pair, then W, alpha and beta."""
-    settings, n = frame.settings, len(stages["neighbors"])
+    settings, n = frame.settings, len(stages["bins"])
     for x, y in stages["histograms"]:
         name = f"{frame.variables[x]}|{frame.variables[y]}"
         before_correction = oracle.mutual_information(stages["histograms"][x, y])
@@ -212,10 +212,11 @@ def check_dependencies(report, frame, traced, stages, units_per_bit, where):
 
 def check_pixel(report, frame, pixel, traced, stages, units_per_bit, where):
     """All stages of one pixel and pass; what follows from a wrong neighborhood is not compared."""
+    mean_radiance = np.abs(frame.values[:, :3]).mean()
+    report.check("start", as_array(traced["start"]), stages["start"], color_bound(stages["start"], mean_radiance), where)
     if check_neighborhood(report, frame, pixel, traced, stages, where):
         check_statistics(report, frame, traced, stages, where)
         check_dependencies(report, frame, traced, stages, units_per_bit, where)
-    mean_radiance = np.abs(frame.values[:, :3]).mean()
     for stage in ("filtered", "color"):
         report.check(stage, as_array(traced[stage]), stages[stage], color_bound(stages[stage], mean_radiance), where)
 
@@ -256,16 +257,16 @@ def compare(case, trace):
                         place(frame, t, pixel))
     mean_radiance = np.abs(frame.values[:, :3]).mean()
     report.check("image", as_array(trace["image"]), image, color_bound(image, mean_radiance), "image")
-    print_summary(frame, passes, tables)
+    print_summary(frame, passes)
     return report
 
 
-def print_summary(frame, passes, tables):
+def print_summary(frame, passes):
     """What the case exercises, so that a case that tests nothing is seen."""
     for t, pixels in enumerate(passes):
         one = list(pixels.values())
         found = sum(len(p["neighbors"]) for p in one) / len(one)
-        drawn = sum(len(oracle.candidates(frame, pixel, tables[t, pixel])) for pixel in pixels)
+        drawn = sum(p["drawn"] for p in one)
         accepted = sum(len(p["neighbors"]) - frame.counts[pixel] for pixel, p in pixels.items()) / max(drawn, 1)
         alpha = np.concatenate([p["alpha"] for p in one])
         beta = np.concatenate([p["beta"] for p in one] + [np.zeros(1)])

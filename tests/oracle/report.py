@@ -1,7 +1,7 @@
 """The table that compare.py prints: the largest deviation of each stage, and the first failure."""
 import numpy as np
 
-STAGES = ["variables", "draws", "own_mean", "own_std", "tolerance", "neighbors", "mean", "std", "normalized", "bins",
+STAGES = ["variables", "draws", "start", "own_mean", "own_std", "tolerance", "neighbors", "mean", "std", "normalized", "bins",
           "histograms", "mutual_information", "W_c_r", "W_f_r", "W_c_f", "fraction_random", "alpha", "beta",
           "filtered", "color", "image"]
 

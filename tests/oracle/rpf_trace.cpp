@@ -38,11 +38,15 @@ rpf::Settings read_settings(const json& s) {
   settings.features = optional<std::vector<std::string>>(s, "features");
   settings.samples_factor = optional<double>(s, "samples_factor");
   settings.max_samples = optional<std::uint32_t>(s, "max_samples").value_or(0);
+  settings.neighbors_factor = optional<double>(s, "neighbors_factor");
+  settings.statistics_block = s.at("statistics_block");
+  settings.statistics_samples = optional<std::uint32_t>(s, "statistics_samples").value_or(0);
   settings.position_scale = s.at("position_scale");
   settings.reject_second_hit = s.at("reject_second_hit");
   settings.bias_correction = s.at("bias_correction");
   settings.alpha_factor = s.at("alpha_factor");
   settings.redraws = s.at("redraws");
+  settings.spread_spikes = s.at("spread_spikes");
   return settings;
 }
 
@@ -126,7 +130,13 @@ void write_statistics(json& out, const Plan& plan, const PixelTrace& t, float sc
     const auto row = static_cast<std::ptrdiff_t>(j * variables),
                next = static_cast<std::ptrdiff_t>((j + 1) * variables);
     out["normalized"].push_back(std::vector<float>(t.normalized.begin() + row, t.normalized.begin() + next));
-    std::vector<int> bins(t.bins.begin() + row, t.bins.begin() + next);
+  }
+}
+
+void write_bins(json& out, const Plan& plan, const PixelTrace& t) {
+  const auto variables = static_cast<std::ptrdiff_t>(plan.variables.count());
+  for (auto row = t.bins.begin(); row != t.bins.end(); row += variables) {
+    std::vector<int> bins(row, row + variables);
     for (int& bin : bins) bin -= plan.half_bins;
     out["bins"].push_back(bins);
   }
@@ -149,17 +159,30 @@ void write_dependencies(json& out, const Plan& plan, const PixelTrace& t) {
   out["beta"] = t.filter_weights.beta;
 }
 
-json write_pixel(const Plan& plan, const PixelTrace& t, std::uint32_t own, float scale) {
+/// `start`: c' of the pixel's own samples as the pass starts, [own][carried].
+json write_pixel(const Plan& plan, const PixelTrace& t, const std::vector<float>& start, float scale) {
   const auto width = static_cast<std::uint32_t>(plan.width);
   json out = {
       {"x", t.pixel % width}, {"y", t.pixel / width}, {"own_mean", json::array()}, {"tolerance", json::array()}};
-  out["draws"] = draws_of(plan, t.pass, t.pixel, own);
+  const std::size_t own = start.size() / plan.carried;
+  out["draws"] = draws_of(plan, t.pass, t.pixel, static_cast<std::uint32_t>(own));
+  out["start"] = unscaled(start, plan.carried, scale);
   write_neighborhood(out, plan, t);
   write_statistics(out, plan, t, scale);
+  write_bins(out, plan, t);
   write_dependencies(out, plan, t);
   out["filtered"] = unscaled(t.filtered, plan.carried, scale);
   out["color"] = unscaled(t.colors, plan.carried, scale);
   return out;
+}
+
+/// The pixel's part of Backend::colors().
+std::vector<float> own_colors(const rpf::Backend& backend, const Plan& plan, const rpf::Frame& frame,
+                              std::uint32_t pixel) {
+  const auto at = [&](std::uint32_t p) {
+    return backend.colors().begin() + static_cast<std::ptrdiff_t>(frame.first_sample[p] * plan.carried);
+  };
+  return {at(pixel), at(pixel + 1)};
 }
 
 int run(const char* case_path, const char* trace_path) {
@@ -177,8 +200,9 @@ int run(const char* case_path, const char* trace_path) {
     const rpf::PassPlan& p = plan.passes[static_cast<std::size_t>(pass)];
     json out = {{"box", p.box_width}, {"units_per_bit", p.entropy.units_per_bit}, {"pixels", json::array()}};
     for (std::uint32_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel) {
-      const std::uint32_t own = prepared.frame.samples(pixel);
-      if (own > 0) out["pixels"].push_back(write_pixel(plan, backend.trace(pass, pixel), own, prepared.radiance_scale));
+      if (prepared.frame.samples(pixel) == 0) continue;
+      const std::vector<float> start = own_colors(backend, plan, prepared.frame, pixel);
+      out["pixels"].push_back(write_pixel(plan, backend.trace(pass, pixel), start, prepared.radiance_scale));
     }
     trace["passes"].push_back(out);
   };

@@ -16,14 +16,14 @@ import scene_frame
 RNG = np.random.Generator(np.random.PCG64(2012))
 
 
-def draw_table(frame, t, pixel):
+def draw_table(frame, t, pixel, rng=RNG):
     """A random table [draws, attempts, 3] as a tool would use it."""
     box = frame.settings["boxes"][t]
     shape = (oracle.draw_count(frame.settings, box, frame.counts[pixel]), frame.settings["redraws"] + 1)
     half = (box - 1) // 2
-    offset = [RNG.choice(np.arange(-half, half + 1), size=shape, p=draw_statistics.point_weights(half, box / 4))
+    offset = [rng.choice(np.arange(-half, half + 1), size=shape, p=draw_statistics.point_weights(half, box / 4))
               for _ in range(2)]
-    return np.stack([*offset, RNG.integers(0, 2 ** 32, size=shape)], axis=-1)
+    return np.stack([*offset, rng.integers(0, 2 ** 32, size=shape)], axis=-1)
 
 
 def run(case):
@@ -288,13 +288,13 @@ def test_statistics_of_draws_see_faults():
     assert draw_statistics.correlation(linked) > 6
 
 
-def main():
-    tests = {name: test for name, test in globals().items() if name.startswith("test_")}
-    for name, test in tests.items():
-        test()
-        print("ok", name)
-    return 0
+def run_tests(tests):
+    """Runs the functions of {name: function} whose name begins with test_."""
+    for name, test in list(tests.items()):
+        if name.startswith("test_"):
+            test()
+            print("ok", name)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_tests(globals())
