@@ -1,10 +1,10 @@
 #include "bench_frame.h"
 
-#include <sys/resource.h>
-
 #include <map>
 
 #include "trace_layout.h"
+
+#include "bench/frame_run.h"
 
 namespace rpf::measure {
 
@@ -27,12 +27,8 @@ Settings settings_for(Profile profile, std::vector<int> box_widths) {
 }
 
 double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  static const bench::CostClock clock;
+  return clock.elapsed().cpu;
 }
 
 Roofs& device_roofs() {

@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/resource.h>
 
-#include <chrono>
 #include <filesystem>
 
+#include "bench/frame_run.h"
 #include "cli/commands.h"
 #include "cli/filter_options.h"
 #include "cli/needs.h"
@@ -21,15 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double megabyte = 1 << 20;
-
-double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 std::string list(const std::vector<std::string>& names) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
@@ -113,13 +103,21 @@ Settings settings_within(double seconds, const SampleBuffer& samples, const Sett
       with_progress("never", [&](const Control& control) { return predict_presets(samples, settings, control); });
   const PresetTime best = best_within(times, seconds);
   if (!options.quiet)
-    fmt::print("preset {}: predicted to take {:.2g} s{}\n", best.name, best.seconds,
-               best.seconds > seconds ? ", more than the time budget; none is faster" : "");
+    print("preset {}: predicted to take {:.2g} s{}\n", best.name, best.seconds,
+          best.seconds > seconds ? ", more than the time budget; none is faster" : "");
   return settings_of(parse_filter_options(arguments, best.name));
 }
 
+void print_summary(const FilterOptions& options, const SampleFileInfo& info, const Report& report, double cpu,
+                   double reading) {
+  if (options.verbose) print_report(report);
+  print("{}: {}x{} pixels, {} samples, {} passes in {:.1f} s ({:.1f} CPU seconds, {:.1f} of them reading)\n",
+        options.output, info.data_window.width, info.data_window.height, info.sample_count, report.passes.size(),
+        report.seconds, cpu, reading);
+}
+
 int run(const FilterOptions& options, const std::vector<std::string>& arguments) {
-  const auto begin = std::chrono::steady_clock::now();
+  const bench::CostClock clock;
   check_usage(options);
   const double budget = time_budget_of(options);
   Settings settings = settings_of(options);
@@ -130,25 +128,17 @@ int run(const FilterOptions& options, const std::vector<std::string>& arguments)
   if (!options.aov.empty() && !is_folder(options.aov)) check_target(options.aov);
   if (options.dry_run) return 0;
 
-  const double start = cpu_seconds();
   read_options.slots = needed_layout(info, settings).slots;
   SampleBuffer samples = read_samples(options.input, read_options);
-  const double read = cpu_seconds();
-  if (budget > 0) {
-    const double used = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    settings = settings_within(budget - used, samples, settings, options, arguments);
-  }
+  const bench::Cost reading = clock.elapsed();
+  if (budget > 0) settings = settings_within(budget - reading.wall, samples, settings, options, arguments);
   const Result result = with_progress(options.quiet ? "never" : options.progress, [&](const Control& control) {
     return filter(std::move(samples), settings, control);
   });
   write_results(options, result);
   if (!options.quiet) print_notes(result.report);
   if (!options.quiet && settings.backend == "auto") print("backend {}\n", result.report.backend);
-  if (options.verbose) print_report(result.report);
-  if (!options.quiet)
-    print("{}: {}x{} pixels, {} samples, {} passes in {:.1f} s ({:.1f} CPU seconds, {:.1f} of them reading)\n",
-          options.output, info.data_window.width, info.data_window.height, info.sample_count,
-          settings.box_widths.size(), result.report.seconds, cpu_seconds() - start, read - start);
+  if (!options.quiet) print_summary(options, info, result.report, clock.elapsed().cpu, reading.cpu);
   return received_signal() == 0 ? 0 : 128 + received_signal();
 }
 
