@@ -39,9 +39,7 @@ Plan measuring_plan(const FrameFacts& facts) {
   settings.box_widths = {measured_box};
   settings.samples_factor = measured_factor;
   settings.bins = bins;
-  FrameFacts whole = facts;
-  whole.crop = {0, 0, facts.width, facts.height};
-  Plan plan = make_plan(whole, settings);
+  Plan plan = make_plan(facts, settings);
   std::fill(plan.minimum_tolerance.begin(), plan.minimum_tolerance.end(), std::numeric_limits<float>::infinity());
   plan.rejecting = 0;
   plan.statistics_samples = 1;  // the trace need not measure: here every sample counts once, and shuffled too
@@ -132,6 +130,22 @@ class Readings {
   const std::vector<double>& terms_;
 };
 
+std::vector<ChannelEvidence> channels_of(const Variables& variables) {
+  std::vector<ChannelEvidence> channels;
+  for (const auto* names : {&variables.random_names, &variables.feature_names})
+    for (const std::string& name : *names) channels.push_back({name, {}, {}});
+  return channels;
+}
+
+/// Of every channel at one pixel.
+void add_readings(const Variables& variables, const Readings& readings, std::vector<ChannelEvidence>& channels) {
+  for (std::size_t v = Variables::random; v < variables.count(); ++v) {
+    ChannelEvidence& channel = channels[v - Variables::random];
+    readings.add(v, Variables::color, Variables::position, channel.color);
+    if (v < variables.features()) readings.add(v, variables.features(), variables.count(), channel.features);
+  }
+}
+
 }  // namespace
 
 bool Evidence::is_enough() const { return excess.size() >= least_pixels; }
@@ -149,27 +163,17 @@ bool Evidence::is_information() const {
 }
 
 std::vector<ChannelEvidence> measure_information(PreparedFrame& prepared, const Settings& settings) {
-  const Variables& variables = prepared.facts.variables;
-  std::vector<ChannelEvidence> channels;
-  for (const auto* names : {&variables.random_names, &variables.feature_names})
-    for (const std::string& name : *names) channels.push_back({name, {}, {}});
   const Plan plan = measuring_plan(prepared.facts);
+  std::vector<ChannelEvidence> channels = channels_of(plan.variables);
   Settings reference;
   reference.threads = settings.threads;
   const auto backend = make_backend(reference);
   backend->load(prepared.frame, std::move(prepared.colors), plan);
   const std::vector<double> terms = entropy_terms(plan.passes[0].max_neighbors);
   for (const std::uint32_t pixel : grid(plan.width, plan.height)) {
-    const PixelTrace trace = backend->trace(0, pixel);
-    if (trace.neighbors.size() < least_samples) continue;
-    std::vector<Column> columns = columns_of(trace, variables.count());
-    if (columns[0].size() < least_samples) continue;
-    const Readings readings(std::move(columns), pixel, terms);
-    for (std::size_t v = Variables::random; v < variables.count(); ++v) {
-      ChannelEvidence& channel = channels[v - Variables::random];
-      readings.add(v, Variables::color, Variables::position, channel.color);
-      if (v < variables.features()) readings.add(v, variables.features(), variables.count(), channel.features);
-    }
+    std::vector<Column> columns = columns_of(backend->trace(0, pixel), plan.variables.count());
+    if (columns[0].size() >= least_samples)
+      add_readings(plan.variables, Readings(std::move(columns), pixel, terms), channels);
   }
   prepared.colors = std::move(backend->colors_to_change());
   return channels;

@@ -103,8 +103,16 @@ TEST(Filter, KeepsAChannelThatMattersInASmallPartOfTheFrameOnly) {
   SampleBuffer samples = two_values();
   for (std::size_t p = 0; p < samples.data_window.pixel_count(); ++p)
     for (std::uint32_t i = samples.first_sample[p]; i < samples.first_sample[p + 1]; ++i)
-      if (p % 96 < 80 || p / 96 > 27) value_of(samples, i, "G") = value_of(samples, i, "R");
+      if (p % 96 < 88 || p / 96 > 8) value_of(samples, i, "G") = value_of(samples, i, "R");
   EXPECT_EQ(run_filter(samples, informative_settings()).report.random, (std::vector<std::string>{"lens.U", "time"}));
+}
+
+TEST(Filter, KeepsAChannelThatMattersALittleEverywhere) {
+  SampleBuffer samples = two_values();
+  for (std::size_t i = 0; i < samples.sample_count(); i += 6)
+    value_of(samples, i, "R") = value_of(samples, i, "random.lens.V") < 0.5F ? 0.25F : 0.75F;
+  EXPECT_EQ(run_filter(samples, informative_settings()).report.random,
+            (std::vector<std::string>{"lens.U", "lens.V", "time"}));
 }
 
 TEST(Filter, KeepsAllWhereTooLittleCanBeMeasured) {
