@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "informative.h"
 #include "memory.h"
 #include "polish.h"
 #include "progress_meter.h"
@@ -105,6 +106,7 @@ class Run {
     check_memory(samples, settings);
     backend_ = make_backend(settings);
     prepared_ = prepare(std::move(samples), settings);
+    if (settings.drop_uninformative) drop_uninformative(prepared_, settings);
     plan_ = make_plan(prepared_.facts, settings);
   }
 
@@ -154,6 +156,7 @@ class Run {
     result.report.random = plan_.variables.random_names;
     result.report.features = plan_.variables.feature_names;
     result.report.dropped = prepared_.dropped;
+    result.report.uninformative = prepared_.uninformative;
     result.report.notes = prepared_.notes;
     geometry_.metadata = provenance(geometry_.metadata, settings_, result.report);
     const std::size_t colors = color_channels(prepared_);

@@ -32,6 +32,7 @@ struct PreparedFrame {
   float radiance_scale = 1;                ///< the power of two that the color was multiplied with
   std::vector<std::string> carried_names;  ///< R, G, B, [A], [features as in the file]
   std::vector<std::string> dropped;        ///< selected channels that are constant over the frame
+  std::vector<std::string> uninformative;  ///< those left out by drop_uninformative()
   std::vector<InputNote> notes;
 };
 

@@ -25,9 +25,9 @@ std::string steps_text(const Settings& s) {
 std::string choices_text(const Settings& s) {
   return fmt::format(
       "statistics-block={} statistics-samples={} alpha-factor={} position-scale={} redraws={} reject-second-hit={} "
-      "bias-correction={} clamp-negative={}",
+      "bias-correction={} clamp-negative={} drop-uninformative={}",
       s.statistics_block, s.statistics_samples, s.alpha_factor, s.position_scale, s.redraws, s.reject_second_hit,
-      s.bias_correction, s.clamp_negative);
+      s.bias_correction, s.clamp_negative, s.drop_uninformative);
 }
 
 }  // namespace
@@ -45,6 +45,7 @@ Metadata provenance(Metadata input, const Settings& settings, const Report& repo
   m["rpf:bins"] = std::int32_t{settings.bins};
   m["rpf:random"] = list(report.random);
   m["rpf:features"] = list(report.features);
+  if (!report.uninformative.empty()) m["rpf:uninformative"] = list(report.uninformative);
   m["rpf:drawSeed"] = static_cast<std::int32_t>(settings.seed);
   m["rpf:choices"] = choices_text(settings);
   m["rpf:steps"] = steps_text(settings);

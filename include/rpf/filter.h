@@ -52,6 +52,7 @@ struct Report {
   std::string backend;                        ///< that ran, with its device: "cpu", "opencl (device)"; for "auto" why
   std::vector<std::string> random, features;  ///< modeled channels
   std::vector<std::string> dropped;           ///< selected channels that are constant over the frame
+  std::vector<std::string> uninformative;     ///< selected channels that Settings::drop_uninformative left out
   std::vector<InputNote> notes;
   std::vector<PassReport> passes;
   double seconds = 0;

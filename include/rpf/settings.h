@@ -45,6 +45,8 @@ struct Settings {
   /// Groups of features to model, for example {"N", "P"}; "first" stands for all groups but those of the second hit
   /// (N2, P2, ...). Nothing: all that the file has.
   std::optional<std::vector<std::string>> features;
+  /// Model none of them that carries no information (docs/deviations.md), as measured on the whole frame.
+  bool drop_uninformative = false;
 
   std::uint32_t seed = 1;
 

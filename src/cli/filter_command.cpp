@@ -51,6 +51,7 @@ void print_report(const Report& report) {
   print("backend {}\nrandom parameters: {}\nfeatures: {}\n", report.backend, list(report.random),
         list(report.features));
   if (!report.dropped.empty()) print("constant, not modeled: {}\n", list(report.dropped));
+  if (!report.uninformative.empty()) print("without information, not modeled: {}\n", list(report.uninformative));
   print("{:>4} {:>4} {:>9} {:>11} {:>6} {:>6} {:>6} {:>7} {:>8}\n", "pass", "box", "neighbors", "acceptance", "W",
         "alpha", "beta", "energy", "seconds");
   for (std::size_t i = 0; i < report.passes.size(); ++i) {

@@ -100,6 +100,8 @@ void add_model_options(CLI::App& app, FilterOptions& o) {
                  "Groups of random parameters to model, all, or none; pixel is the position inside the pixel")
       ->type_name("LIST")
       ->default_str("lens,time,light where present, with pixel in the thesis profile");
+  app.add_flag("--drop-uninformative", o.settings.drop_uninformative,
+               "Leave out random parameters and features that carry no information");
   app.add_option("--seed", o.settings.seed, "Seed of the neighborhood draws")->capture_default_str();
 }
 

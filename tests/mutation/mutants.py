@@ -13,6 +13,7 @@ PLAN, TABLES, CLEAN = "src/plan.cpp", "src/tables.cpp", "src/clean.cpp"
 PREPARE, DRIVER, RESOLVE = "src/prepare.cpp", "src/driver.cpp", "src/resolve.cpp"
 MERGE, RAW_READER, HDR_FLIP = "src/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
 SELECTION, SPIKES, POLISH_TILE = "src/selection.cpp", "src/spikes.cpp", "src/polish_tile.cpp"
+INFORMATION, INFORMATIVE = "src/information.cpp", "src/informative.cpp"
 SCENE = "src/scene/"
 BOTH = "Profiles/BothProfiles."
 
@@ -52,6 +53,23 @@ MUTANTS = [
            "oracle spp1_paper variables", "input: constant channels are modeled"),
     Mutant("constant_channel_trace", PREPARE, "const bool constant = is_constant(samples, source);", "const bool constant = false;",
            BOTH + "DropsAConstantChannelWithoutATrace/*", "input: constant channels are modeled"),
+    Mutant("information_peak", INFORMATION, "least_peak = 4;", "least_peak = 4000;",
+           "Filter.KeepsAChannelThatMattersInASmallPartOfTheFrameOnly", "information: only the mean over the frame counts"),
+    Mutant("information_mean", INFORMATION, "least_mean = 5;", "least_mean = 5000;",
+           "Filter.KeepsAChannelThatMattersALittleEverywhere", "information: only the largest readings count"),
+    Mutant("information_few_pixels", INFORMATION, "least_pixels = 32;", "least_pixels = 0;",
+           "Filter.KeepsAllWhereTooLittleCanBeMeasured", "information: one pixel proves that there is none"),
+    Mutant("information_shuffle", INFORMATION, "[random() % i]", "[i - 1]",
+           "Filter.DropsWhatCarriesNoInformation", "information: nothing is shuffled"),
+    Mutant("information_repeats", INFORMATION, "rows.erase(std::unique(rows.begin(), rows.end(), same), rows.end());", "(void)same;",
+           "Filter.DropsWhatCarriesNoInformation", "information: samples drawn twice count twice"),
+    Mutant("information_crop", INFORMATION, "grid(plan.width, plan.height)",
+           "grid(prepared.facts.crop.width, prepared.facts.crop.height)",
+           "Filter.LooksForInformationInTheWholeFrameWhateverTheCrop", "information: of the crop only"),
+    Mutant("information_names", INFORMATIVE, "v < features ?", "v + 1 < features ?",
+           "Filter.WithoutUselessChannelsIsAsIfTheyWereNotThere", "information: a random parameter becomes a feature"),
+    Mutant("information_repack", INFORMATIVE, "*to++ = record[v];", "*to++ = record[v % kept.size()];",
+           "Filter.WithoutUselessChannelsIsAsIfTheyWereNotThere", "information: values of a dropped channel stay"),
     Mutant("pixel_fraction", PREPARE, "value - std::floor(value) : value", "value : value",
            "oracle spp4_thesis mean", "input: the film position as random parameter"),
     Mutant("hit_mask_ignored", PREPARE, "if (columns.hit) return record[*columns.hit] != 0;", "",

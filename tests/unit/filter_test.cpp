@@ -253,8 +253,9 @@ TEST(Filter, StaysFiniteWithHugeWeightsAndAlphas) {
   }
   const Result result = run_filter(samples, small_settings());
   for (const float value : result.image.pixels) EXPECT_TRUE(std::isfinite(value));
-  ASSERT_EQ(result.report.notes.size(), 1U);
+  ASSERT_EQ(result.report.notes.size(), 2U);
   EXPECT_EQ(result.report.notes[0].count, 40U);  // samples left out
+  EXPECT_EQ(result.report.notes[1].count, 40U);  // alphas of the others
 }
 
 TEST(Filter, FiltersAlphaAndFeaturesWithTheSameWeights) {
