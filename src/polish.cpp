@@ -46,7 +46,8 @@ void polish(const Frame& frame, const Plan& plan, const PolishOptions& options, 
   const auto threads = static_cast<std::size_t>(options.threads);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);  // may be more than cores
   tbb::task_arena arena(options.threads);
-  tbb::enumerable_thread_specific<PolishTile> workspaces(frame, plan, options.floor);
+  // Given as arguments, frame and plan would be copied: oneTBB keeps them for the next thread.
+  tbb::enumerable_thread_specific<PolishTile> workspaces([&] { return PolishTile(frame, plan, options.floor); });
   const std::size_t step = tiles_per_thread * threads;
   for (std::size_t first = 0; first < tiles.size(); first += step) {
     const std::size_t last = std::min(first + step, tiles.size());

@@ -78,17 +78,21 @@ class SampleFilesTest(unittest.TestCase):
         write_samples(big, [0, 0, 300, 200], counts, {name: values for name in names})
         write_samples(small, [0, 0, 1, 1], counts[:1], {name: values[:16] for name in names})
         options = ["-q", "--backend=cpu", "-t", "1", "--boxes", "1"]
-        for profile in ("thesis", "paper"):  # thesis: two more columns than were read
-            with self.subTest(profile=profile):
-                text = run(big, "--dry-run", *options, "--profile", profile).stdout
+        steps = ["--profile", "paper", "--features", "first", "--spread-spikes", "--polish", "0.15"]
+        # thesis: two more columns than were read
+        for more in (["--profile", "thesis"], ["--profile", "paper"], steps):
+            with self.subTest(options=more):
+                text = run(big, "--dry-run", *options, *more).stdout
                 predicted = float(re.search(r"peak memory: (\d+) MB", text).group(1))
-                used = peak_mb(big, "-o", output, *options, "--profile", profile) - peak_mb(small, "-o", output, *options)
+                used = peak_mb(big, "-o", output, *options, *more) - peak_mb(small, "-o", output, *options)
                 self.assertLess(used, predicted * 1.02)  # pages, buffers of files
                 self.assertGreater(used, predicted * 0.75)
                 self.assertLess(used, 1.5 * counts.sum() * len(names) * 4 / 2**20)
         # What constant channels took is given back, in time for the second set of colors.
         constant = {name: values * 0 if "2" in name else values for name in names}
         write_samples(big, [0, 0, 300, 200], counts, constant)
+        text = run(big, "--dry-run", *options, "--profile", "paper").stdout
+        predicted = float(re.search(r"peak memory: (\d+) MB", text).group(1))
         used = peak_mb(big, "-o", output, *options, "--profile", "paper") - peak_mb(small, "-o", output, *options)
         self.assertLess(used, predicted * 0.93)
 
