@@ -28,6 +28,10 @@ Imf::Header header_of(const Image& image) {
     } catch (const std::exception&) {  // one that OpenEXR has itself, in another type: its own stays
     }
   }
+  // What a damaged input carries along must not cost the image.
+  const float aspect = header.pixelAspectRatio();
+  if (!(aspect >= 1e-6F && aspect <= 1e6F)) header.pixelAspectRatio() = 1;
+  if (!(header.screenWindowWidth() >= 0)) header.screenWindowWidth() = 1;
   return header;
 }
 

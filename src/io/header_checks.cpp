@@ -44,6 +44,12 @@ Window window_of(const std::string& path, const char* attribute, const Corners& 
     reject(path, fmt::format("has a {} of {} x {} pixels, expected 1 to {} on each side; the header is damaged or the "
                              "frame must be rendered in parts",
                              attribute, width, height, limit));
+  constexpr std::int64_t farthest = std::numeric_limits<std::int32_t>::max() / 2;  // OpenEXR's own limit
+  for (const std::int64_t corner : {corners.min_x, corners.min_y, corners.max_x, corners.max_y})
+    if (corner <= -farthest || corner >= farthest)
+      reject(path, fmt::format("has a {} with a corner at {}, but OpenEXR knows coordinates up to {}; the header is "
+                               "damaged or the frame must be moved",
+                               attribute, corner, farthest));
   return {static_cast<int>(corners.min_x), static_cast<int>(corners.min_y), static_cast<int>(width),
           static_cast<int>(height)};
 }
