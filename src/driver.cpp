@@ -145,7 +145,7 @@ class Run {
       meter.add(pass, tile.pixel_count());
     }
     backend_->end_pass();
-    if (plan_.spread_spikes) spread_spikes(prepared_.frame, resolved(), plan_.carried, backend_->colors_to_change());
+    if (plan_.spread_spikes) spread_spikes(prepared_.frame, plan_.carried, backend_->colors_to_change());
     PassReport report = summarize(backend_->statistics(), prepared_.frame, plan);
     report.seconds = meter.seconds() - start;
     return report;

@@ -24,15 +24,13 @@ void require(bool holds, const std::string& message) {
   if (!holds) throw Error(ErrorKind::usage, message);
 }
 
-std::string group(const std::string& name) { return name.substr(0, name.find('.')); }
-
 void plan_rejection(Plan& plan, const FrameFacts& facts, const Settings& settings) {
   const float position_tolerance = least_tolerance * facts.position_diagonal / settings.position_scale;
   for (const std::string& name : facts.variables.feature_names) {
-    const bool takes_part = settings.reject_second_hit || !is_second_hit(group(name));
-    const float tolerance = is_world_position(group(name)) ? position_tolerance : least_tolerance;
-    plan.rejection_factor.push_back(is_world_position(group(name)) ? position_rejection_factor
-                                                                   : feature_rejection_factor);
+    const bool takes_part = settings.reject_second_hit || !is_second_hit(group_of_variable(name));
+    const float tolerance = is_world_position(group_of_variable(name)) ? position_tolerance : least_tolerance;
+    plan.rejection_factor.push_back(is_world_position(group_of_variable(name)) ? position_rejection_factor
+                                                                               : feature_rejection_factor);
     plan.minimum_tolerance.push_back(takes_part ? tolerance : std::numeric_limits<float>::infinity());
     if (takes_part) plan.rejecting = plan.minimum_tolerance.size();
   }
@@ -75,6 +73,8 @@ void plan_regions(Plan& plan, const Window& crop) {
 }
 
 }  // namespace
+
+std::string group_of_variable(const std::string& name) { return name.substr(0, name.find('.')); }
 
 bool is_world_position(const std::string& group) { return group == "P" || group == "P2"; }
 

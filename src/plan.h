@@ -71,6 +71,9 @@ struct Plan {
   Window polished;  ///< pixels to polish, frame coordinates
 };
 
+/// "N" of the variable "N.X"; group_of() does it for slots, such as "feature.N.X".
+std::string group_of_variable(const std::string& name);
+
 /// Whether a group of features is of the second hit: its name ends in 2, as in "N2".
 bool is_second_hit(const std::string& group);
 

@@ -59,7 +59,7 @@ std::vector<std::size_t> polish_guides(const Variables& variables) {
   std::vector<std::size_t> guides;
   for (std::size_t k = 0; k < variables.feature_names.size(); ++k) {
     const std::string& name = variables.feature_names[k];
-    const std::string group = name.substr(0, name.find('.'));
+    const std::string group = group_of_variable(name);
     if (group == "N" || group == "albedo") guides.push_back(variables.features() + k);
   }
   return guides;

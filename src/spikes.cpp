@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "resolve.h"
+
 namespace rpf {
 namespace {
 
@@ -82,8 +84,8 @@ class Spreading {
 
 }  // namespace
 
-void spread_spikes(const Frame& frame, const std::vector<float>& pixels, std::size_t carried,
-                   std::vector<float>& colors) {
+void spread_spikes(const Frame& frame, std::size_t carried, std::vector<float>& colors) {
+  const std::vector<float> pixels = resolve(frame, colors, carried);
   Spreading(frame, pixels, carried).apply(colors);
 }
 

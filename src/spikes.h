@@ -16,9 +16,8 @@ constexpr int spike_reach = spike_spread + 1;
 /// as bright as the brightest of them, at least 0, and what it loses is added in equal shares to all pixels of the
 /// square around it, itself included. All spikes are found before any is spread. Energy, the sum of the pixels, is kept
 /// and pixels without samples take no part. Section 7 does the same to the samples inside a pixel.
-/// `pixels`: resolve() of `colors`, [pixel][carried]. Changes R, G and B of `colors`, [sample][carried].
-void spread_spikes(const Frame& frame, const std::vector<float>& pixels, std::size_t carried,
-                   std::vector<float>& colors);
+/// Changes R, G and B of `colors`, [sample][carried].
+void spread_spikes(const Frame& frame, std::size_t carried, std::vector<float>& colors);
 
 /// Bytes that spread_spikes takes for so many pixels.
 std::uint64_t spikes_bytes(std::uint64_t pixels);

@@ -107,9 +107,7 @@ class Lockstep {
 
   /// What the driver does after a pass, so that the next pass is compared on its result.
   void spread(Backend& backend) const {
-    if (plan_.spread_spikes)
-      spread_spikes(prepared_.frame, resolve(prepared_.frame, backend.colors(), plan_.carried), plan_.carried,
-                    backend.colors_to_change());
+    if (plan_.spread_spikes) spread_spikes(prepared_.frame, plan_.carried, backend.colors_to_change());
   }
 
   PreparedFrame prepared_;

@@ -135,9 +135,10 @@ PixelTrace CpuBackend::trace(int pass, std::uint32_t pixel) {
   const std::uint32_t own = frame_->samples(pixel);
   if (own == 0) return t;
   const int x = static_cast<int>(pixel) % frame_->width, y = static_cast<int>(pixel) / frame_->width;
-  fill_neighborhood(*frame_, *plan_, pass, *leader_of(*frame_, block_at(*frame_, *plan_, x, y)), w);
+  const std::uint32_t leader = *leader_of(*frame_, block_at(*frame_, *plan_, x, y));
+  fill_neighborhood(*frame_, *plan_, pass, leader, w);
   measure(*plan_, pass, w);
-  fill_neighborhood(*frame_, *plan_, pass, pixel, w);
+  if (leader != pixel) fill_neighborhood(*frame_, *plan_, pass, pixel, w);
   t.colors.resize(own * plan_->carried);
   filter_pixel(*frame_, *plan_, pixel, colors_, w, t.colors.data());
   t.filtered.resize(t.colors.size());

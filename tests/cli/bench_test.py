@@ -1,17 +1,13 @@
 """rpf bench as a user runs it. No test looks at how long anything took. Usage: bench_test.py RPF PROJECT"""
 import json
-import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
-from pathlib import Path
 
-RPF, PROJECT = sys.argv[1], Path(sys.argv[2]).resolve()
-EXAMPLE = PROJECT / "examples" / "dof-spheres.samples.exr"
-REFERENCE = PROJECT / "examples" / "dof-spheres.reference.exr"
+from command_case import EXAMPLE, REFERENCE, RPF, CommandCase
+
 QUICK = "--boxes 5,3 --crop 16x12+20+20"
 
 
@@ -19,18 +15,10 @@ def run(*arguments):
     return subprocess.run([RPF, "bench", *map(str, arguments)], capture_output=True, text=True, check=False)
 
 
-class BenchTest(unittest.TestCase):
+class BenchTest(CommandCase):
     def setUp(self):
-        self.folder = Path(tempfile.mkdtemp(prefix="rpf test ü "))  # a blank and UTF-8 on purpose
+        super().setUp()
         self.results = self.folder / "results.jsonl"
-
-    def tearDown(self):
-        shutil.rmtree(self.folder)
-
-    def expect(self, result, code, *texts):
-        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
-        for text in texts:
-            self.assertIn(text, result.stdout + result.stderr)
 
     def plan(self, **changes):
         plan = {"rounds": 2, "settings": {"mean": "--boxes none", "five": "--boxes 5"},

@@ -6,14 +6,11 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
-from pathlib import Path
 
-RPF, PROJECT = sys.argv[1], Path(sys.argv[2]).resolve()
-EXAMPLE = PROJECT / "examples" / "dof-spheres.samples.exr"
-REFERENCE = PROJECT / "examples" / "dof-spheres.reference.exr"
+from command_case import EXAMPLE, PROJECT, REFERENCE, RPF, CommandCase
+
 SHARED = PROJECT.parent / "shared" / "data"
 BACKEND = os.environ.get("RPF_BACKEND", "cpu")  # CMake runs this file once for each
 QUICK = ["--boxes", "5,3", "--crop", "16x12+20+20"]
@@ -31,18 +28,10 @@ def error_of(run_):
     return [float(word) for word in run_.stdout.splitlines()[1].split()[:3]]
 
 
-class CommandTest(unittest.TestCase):
+class CommandTest(CommandCase):
     def setUp(self):
-        self.folder = Path(tempfile.mkdtemp(prefix="rpf test ü "))  # a blank and UTF-8 on purpose
+        super().setUp()
         self.output = self.folder / "out.exr"
-
-    def tearDown(self):
-        shutil.rmtree(self.folder)
-
-    def expect(self, result, code, *texts):
-        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
-        for text in texts:
-            self.assertIn(text, result.stdout + result.stderr)
 
     def expect_nothing_written(self):
         self.assertEqual(list(self.folder.iterdir()), [])

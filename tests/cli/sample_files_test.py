@@ -1,17 +1,13 @@
 """merge and convert as a user runs them, with the numpy code of docs/file-format.md.
 Usage: sample_files_test.py RPF PROJECT"""
 import re
-import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
-RPF, PROJECT = sys.argv[1], Path(sys.argv[2]).resolve()
-EXAMPLE = PROJECT / "examples" / "dof-spheres.samples.exr"
+from command_case import EXAMPLE, PROJECT, RPF, CommandCase
 
 # The document's code is what is tested.
 DOCUMENT = (PROJECT / "docs" / "file-format.md").read_text(encoding="utf-8")
@@ -22,18 +18,10 @@ def run(*arguments):
     return subprocess.run([RPF, *map(str, arguments)], capture_output=True, text=True, check=False)
 
 
-class SampleFilesTest(unittest.TestCase):
+class SampleFilesTest(CommandCase):
     def setUp(self):
-        self.folder = Path(tempfile.mkdtemp(prefix="rpf test ü "))  # a blank and UTF-8 on purpose
+        super().setUp()
         self.random = np.random.default_rng(1)
-
-    def tearDown(self):
-        shutil.rmtree(self.folder)
-
-    def expect(self, result, code, *texts):
-        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
-        for text in texts:
-            self.assertIn(text, result.stdout + result.stderr)
 
     def expect_same(self, a, b):
         """Two read raw files: same counts, same channels, same bits."""

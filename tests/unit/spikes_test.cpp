@@ -33,7 +33,7 @@ struct SpikeFrame {
     for (std::size_t i = frame.first_sample[pixel]; i < frame.first_sample[pixel + 1]; ++i)
       std::copy(color.begin(), color.end(), colors.begin() + static_cast<std::ptrdiff_t>(i * carried));
   }
-  void spread() { spread_spikes(frame, pixels(), carried, colors); }
+  void spread() { spread_spikes(frame, carried, colors); }
 };
 
 std::vector<std::uint32_t> all(std::size_t pixels, std::uint32_t samples) { return {std::vector(pixels, samples)}; }
