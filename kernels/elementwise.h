@@ -109,21 +109,29 @@ RPF_INLINE RPF_INT rpf_rejects(RPF_REAL value, RPF_REAL own_mean, RPF_REAL toler
 
 // ---- section 4: normalization ---------------------------------------------------------------------------------------
 
+#define RPF_FLAT_SPREAD 1e-6f  // a smaller standard deviation, relative to the values, is 0
+
 // Mean 0, standard deviation 1. `value` and `mean` are relative to the same shift; a missing value becomes 0.
-RPF_INLINE RPF_REAL rpf_normalize(RPF_REAL value, float mean, float inverse_deviation) {
+RPF_INLINE RPF_REAL rpf_normalize(RPF_REAL value, RPF_REAL mean, RPF_REAL inverse_deviation) {
   return rpf_is_missing(value) ? 0.0f : (value - mean) * inverse_deviation;
+}
+
+// 1 / standard deviation, or 0 where the variable counts as constant. `largest`: largest magnitude of the unshifted
+// values.
+RPF_INLINE RPF_REAL rpf_inverse_deviation(RPF_REAL variance, RPF_REAL largest) {
+  const RPF_REAL deviation = sqrt(variance);
+  return deviation > RPF_FLAT_SPREAD * largest ? 1.0f / deviation : 0.0f;
 }
 
 // ---- section 5: bins ------------------------------------------------------------------------------------------------
 
-// Bin of a normalized value, 0 .. 2K: nearest integer, half away from zero, clamped to [-K, K], plus K.
-// `whole` is exact and so is the rest, hence no value is rounded across an edge.
-RPF_INLINE RPF_INT rpf_bin(RPF_REAL normalized, int half_bins) {
-  const float limit = (float)half_bins;
+// Bin of a normalized value less K, -K .. K: nearest integer, half away from zero, clamped to [-K, K]. What is added before
+// truncation is the largest number below 1/2: with 1/2 itself the largest number below 1/2 would round up to 1.
+RPF_INLINE RPF_INT rpf_signed_bin(RPF_REAL normalized, int half_bins) {
+  const float limit = (float)half_bins, below_half = 0.49999997f;
   const RPF_REAL magnitude = fabs(normalized) < limit ? fabs(normalized) : limit;
-  const RPF_INT whole = RPF_TO_INT(magnitude);
-  const RPF_INT nearest = magnitude - RPF_TO_REAL(whole) >= 0.5f ? whole + 1 : whole;
-  return normalized < 0.0f ? half_bins - nearest : half_bins + nearest;
+  const RPF_INT nearest = RPF_TO_INT(magnitude + below_half);
+  return normalized < 0.0f ? -nearest : nearest;
 }
 
 // ---- section 6: weights ---------------------------------------------------------------------------------------------

@@ -7,8 +7,16 @@
 #define RPF_PHASES 5
 #endif
 
+// PoCL compiles for the newest processor that its LLVM knows. Where the host has an instruction that counts bits in vectors
+// and says so (RPF_AVX512), all that a pixel takes is compiled for it, in a function of its own.
+#ifdef RPF_AVX512
+#pragma clang attribute push(                                                                                     \
+    __attribute__((target("avx512vpopcntdq,avx512f,avx512bw,avx512cd,avx512dq,avx512vl,popcnt"))), apply_to = function)
+#endif
+
 #include "frame.cl"
 #include "neighborhood.cl"
+#include "transpose.cl"
 #include "statistics.cl"
 #include "weighting.cl"
 
@@ -26,16 +34,24 @@ static void trace_moments(const Trace* trace, const OwnMoments* moments) {
   trace_vectors(trace, trace->at.tolerance, moments->tolerance, RPF_FEATURE_CHUNKS);
 }
 
-// Section 4 for all variables.
-static void normalize_columns(const OwnMoments* own, uint neighbors, const Slot* slot, const Trace* trace) {
-  float shift[RPF_CHUNKS * RPF_LANES];
-  for (int c = 0; c < RPF_CHUNKS; ++c) vstore16(own->shift[c], c, shift);
-  for (uint v = 0; v < RPF_VARIABLES; ++v) {
-    const float2 moments = normalize_column(slot->columns + v * slot->blocks, neighbors, shift[place_of(v)]);
-    if (!trace->values) continue;
-    trace->values[trace->at.shift + v] = shift[place_of(v)];
-    trace->values[trace->at.mean + v] = moments.x;
-    trace->values[trace->at.inverse_deviation + v] = moments.y;
+// Of all variables, from vectors in the order of places.
+static void trace_variables(const Trace* trace, uint at, const float16* values) {
+  float by_place[RPF_CHUNKS * RPF_LANES];
+  for (int c = 0; c < RPF_CHUNKS; ++c) vstore16(values[c], c, by_place);
+  for (uint v = 0; v < RPF_VARIABLES; ++v) trace->values[at + v] = by_place[place_of(v)];
+}
+
+static void trace_neighborhood(const Frame* frame, const rpf_pass* pass, const OwnMoments* moments, uint own,
+                               uint neighbors, const Slot* slot, const Normalization* n, const Trace* trace) {
+  if (!trace->values) return;
+  trace_moments(trace, moments);
+  trace_variables(trace, trace->at.shift, n->shift);
+  trace_variables(trace, trace->at.mean, n->mean);
+  trace_variables(trace, trace->at.inverse_deviation, n->inverse_deviation);
+  for (uint j = 0; j < neighbors; ++j) {
+    float16 values[RPF_CHUNKS];
+    for (int c = 0; c < RPF_CHUNKS; ++c) values[c] = normalized(frame, pass, slot, j, c, n);
+    trace_variables(trace, trace->at.weights + own * neighbors + j * RPF_VARIABLES, values);
   }
 }
 
@@ -45,11 +61,11 @@ typedef struct {
   float feature_fraction_random[RPF_FEATURES + 1], fraction_feature[RPF_FEATURES + 1], beta[RPF_FEATURES + 1];
 } Weights;
 
-static void weigh(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot, const Trace* trace,
-                  Weights* out) {
+static void weigh(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot, const Normalization* n,
+                  const Trace* trace, Weights* out) {
   const uint measured = min(neighbors, pass->measured);
   float information[RPF_PAIRS];
-  measure_dependencies(frame, pass, measured, slot, trace, information);
+  measure_dependencies(frame, pass, measured, slot, n, trace, information);
   const rpf_feature_weights feature = {out->feature_fraction_random, out->fraction_feature, out->beta};
   rpf_weigh_dependencies(information, RPF_RANDOM, RPF_FEATURES, pass->alpha_factor, pass->growth, &out->color, feature);
   if (!trace->values) return;
@@ -63,26 +79,27 @@ static void weigh(const Frame* frame, const rpf_pass* pass, uint neighbors, cons
   trace_floats(trace, trace->at.beta, out->beta, RPF_FEATURES);
 }
 
-// Sections 3 and 4: the pixel's neighborhood, normalized, in the slot. Returns N.
-static uint fill_neighborhood(const Frame* frame, const rpf_pass* pass, uint pixel, const Slot* slot,
+// Sections 3 and 4: the pixel's neighborhood, in the slot. Returns N.
+static uint fill_neighborhood(const Frame* frame, const rpf_pass* pass, uint pixel, const Slot* slot, Normalization* n,
                               const Trace* trace, uint* drawn) {
   const uint first = first_sample_of(frame, pass, pixel), own = samples_of(frame, pass, pixel);
   OwnMoments moments;
   own_moments(frame, pass, first, own, &moments);
   const uint neighbors = gather(frame, pass, pixel, first, own, &moments, slot, drawn);
   if (RPF_PHASES < 3) return neighbors;
-  fill_columns(frame, pass, neighbors, &moments, slot);
-  normalize_columns(&moments, neighbors, slot, trace);
-  if (trace->values) trace_moments(trace, &moments);
+  settle_shift(frame, pass, neighbors, slot, &moments);
+  for (int c = 0; c < RPF_CHUNKS; ++c) n->shift[c] = moments.shift[c];
+  measure_moments(frame, pass, neighbors, slot, n);
+  trace_neighborhood(frame, pass, &moments, own, neighbors, slot, n, trace);
   return neighbors;
 }
 
 // Sections 6 and 7 for the pixel whose neighborhood is in the slot.
-static void filter_pixel(const rpf_pass* pass, uint own, uint neighbors, const Slot* slot, const Weights* weights,
-                         const Trace* trace, __global float* out) {
-  Coordinates coordinates;
-  choose_coordinates(pass, own, &weights->color, weights->beta, &coordinates);
-  filter_samples(own, neighbors, slot, &coordinates, trace, out);
+static void filter_pixel(const Frame* frame, const rpf_pass* pass, uint own, uint neighbors, const Slot* slot,
+                         const Normalization* n, const Weights* weights, const Trace* trace, __global float* out) {
+  Means means = {own, neighbors, n};
+  choose_coordinates(pass, own, &weights->color, weights->beta, &means.coordinates);
+  filter_samples(frame, pass, slot, &means, trace, out);
   for (uint i = 0; trace->values && i < own * RPF_CARRIED; ++i) trace->values[trace->at.filtered + i] = out[i];
   if (pass->outlier_step) replace_outliers(out, own);
 }
@@ -119,21 +136,21 @@ static void filter_member(const Frame* frame, const rpf_pass* pass, uint pixel, 
   const uint own = samples_of(frame, pass, pixel), first = first_sample_of(frame, pass, pixel);
   rpf_pixel_statistics statistics = {0, 0, 0.0f, 0.0f, 0.0f};
   if (own > 0) {
-    statistics.neighbors = fill_neighborhood(frame, pass, pixel, slot, trace, &statistics.drawn);
-    if (measures) weigh(frame, pass, statistics.neighbors, slot, trace, weights);
+    Normalization n;
+    statistics.neighbors = fill_neighborhood(frame, pass, pixel, slot, &n, trace, &statistics.drawn);
+    if (measures) weigh(frame, pass, statistics.neighbors, slot, &n, trace, weights);
     statistics.fraction_random = weights->color.fraction_random;
     statistics.alpha = rpf_mean(weights->color.alpha, 3);
     statistics.beta = rpf_mean(weights->beta, RPF_FEATURES);
     if (RPF_PHASES > 4)
-      filter_pixel(pass, own, statistics.neighbors, slot, weights, trace,
+      filter_pixel(frame, pass, own, statistics.neighbors, slot, &n, weights, trace,
                    output->colors + (size_t)(first - pass->first_sample) * RPF_CARRIED);
   }
   output->statistics[pixel - pass->first_pixel] = statistics;
 }
 
 // The pixels of a block that lie in the tile.
-RPF_CPU_FEATURES
-static void filter_block(const Frame* frame, const rpf_pass* pass, Area block, Area tile, const Slot* slot,
+__attribute__((noinline)) static void filter_block(const Frame* frame, const rpf_pass* pass, Area block, Area tile, const Slot* slot,
                          Trace* trace, const Output* output) {
   const uint leader = leader_of(frame, pass, block);
   const Area wanted = {max(block.x, tile.x), max(block.y, tile.y), min(block.end_x, tile.end_x),
@@ -142,9 +159,10 @@ static void filter_block(const Frame* frame, const rpf_pass* pass, Area block, A
   if (leader != RPF_NO_SAMPLE && !is_inside(pass, wanted, leader)) {
     Trace none = *trace;
     none.values = 0;
+    Normalization n;
     uint drawn;
-    const uint neighbors = fill_neighborhood(frame, pass, leader, slot, &none, &drawn);
-    weigh(frame, pass, neighbors, slot, trace, &weights);
+    const uint neighbors = fill_neighborhood(frame, pass, leader, slot, &n, &none, &drawn);
+    weigh(frame, pass, neighbors, slot, &n, trace, &weights);
   }
   for (int y = wanted.y; y < wanted.end_y; ++y)
     for (int x = wanted.x; x < wanted.end_x; ++x) {
@@ -152,6 +170,10 @@ static void filter_block(const Frame* frame, const rpf_pass* pass, Area block, A
       filter_member(frame, pass, pixel, RPF_PHASES > 3 ? pixel == leader : 0, slot, &weights, trace, output);
     }
 }
+
+#ifdef RPF_AVX512
+#pragma clang attribute pop
+#endif
 
 // Lays the records and c' of a band out as filter_tile reads them: [RPF_CHUNKS][sample], in the order of place_of().
 __kernel void lay_out_records(__global const float* records, __global const float* colors, __global float16* chunks,
@@ -177,7 +199,7 @@ __kernel void filter_tile(__global const uint* first_sample, __global const floa
                           __global const char* offsets, __global const uint* draws,
                           __global const int* entropy, __global const float* rejection_factor,
                           __global const float* minimum_tolerance, __global uint* candidates, __global uint* neighbors,
-                          __global float16* columns, __global uint* planes, __global float16* neighbor_colors,
+                          __global ulong8* planes, __global float16* columns, __global float16* sums,
                           __global float* next_colors, __global rpf_pixel_statistics* statistics,
                           __global float* trace_values, __global uint* trace_histograms, const rpf_pass pass) {
   const Frame frame = {first_sample, chunks, offsets, draws, entropy, rejection_factor, minimum_tolerance};
@@ -185,13 +207,9 @@ __kernel void filter_tile(__global const uint* first_sample, __global const floa
   trace.values = trace_values;
   trace.histograms = trace_histograms;
   const size_t item = get_global_id(0);
-  const uint blocks = pass.capacity / RPF_LANES, words = (blocks + 31) / 32 * RPF_LANES;
-  const Slot slot = {candidates + item * pass.capacity,
-                     neighbors + item * pass.capacity,
-                     columns + item * RPF_VARIABLES * blocks,
-                     planes + item * RPF_VARIABLES * RPF_BINS * words,
-                     neighbor_colors + item * RPF_CARRIED * blocks,
-                     blocks};
+  const Slot slot = {candidates + item * RPF_DRAWN_AT_ONCE, neighbors + item * pass.capacity,
+                     planes + item * RPF_VARIABLES * rpf_plane_words(pass.capacity) * RPF_BIN_VECTORS,
+                     columns + item * RPF_COLUMNS * RPF_STRETCH, sums + item * pass.most_samples * (1 + RPF_CARRIED)};
   const Output output = {next_colors, statistics};
   const Area tile = {pass.tile_x, pass.tile_y, pass.tile_x + pass.tile_width, pass.tile_y + pass.tile_height};
   const int side = (int)pass.block, first_x = tile.x / side, first_y = tile.y / side;

@@ -14,16 +14,9 @@
 #define RPF_FIRST_FEATURE (5 + RPF_RANDOM)
 #define RPF_PAIRS (3 * (2 + RPF_RANDOM + RPF_FEATURES) + RPF_FEATURES * (2 + RPF_RANDOM))  // rpf_pairs()
 #define RPF_HALF_BINS ((RPF_BINS - 1) / 2)
+#define RPF_BIN_VECTORS ((RPF_BINS + RPF_BINS_AT_ONCE - 1) / RPF_BINS_AT_ONCE)
+#define RPF_COLUMNS (3 + RPF_FEATURES + RPF_CARRIED + 1)  // coordinates of a distance, c', and one for what is not needed
 #define RPF_NO_SAMPLE 0xFFFFFFFFu
-
-// PoCL compiles for the newest processor that its LLVM knows. Where the host has an instruction that counts bits in vectors
-// and says so (RPF_AVX512), the function that does the work is compiled for it.
-#ifdef RPF_AVX512
-#define RPF_CPU_FEATURES \
-  __attribute__((noinline, target("avx512vpopcntdq,avx512f,avx512bw,avx512cd,avx512dq,avx512vl,popcnt")))
-#else
-#define RPF_CPU_FEATURES
-#endif
 
 #define RPF_LANE_NUMBERS ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 
@@ -49,14 +42,13 @@ static uint variable_at(uint place) {
   return place < RPF_FEATURES ? place + RPF_FIRST_FEATURE : place - RPF_FEATURES;
 }
 
-// Scratch of a work-item for up to `capacity` neighbors, `blocks` of RPF_LANES.
+// Scratch of a work-item. A stretch is what a weighted sum adds up before it is added to a total (numeric.h).
 typedef struct {
-  __global uint* candidates;  // [capacity]
+  __global uint* candidates;  // [RPF_DRAWN_AT_ONCE]
   __global uint* neighbors;   // [capacity]
-  __global float16* columns;  // [RPF_VARIABLES][blocks] values less the shift, then normalized
-  __global uint* planes;      // [RPF_VARIABLES][RPF_BINS][words] one bit a neighbor (statistics.cl)
-  __global float16* colors;   // [RPF_CARRIED][blocks]
-  uint blocks;
+  __global ulong8* planes;    // [RPF_VARIABLES][words][RPF_BIN_VECTORS] one bit a neighbor and bin (statistics.cl)
+  __global float16* columns;  // [RPF_COLUMNS][RPF_STRETCH] a stretch of neighbors, RPF_LANES in a vector (weighting.cl)
+  __global float16* sums;     // [own samples][1 + RPF_CARRIED] of weights and weighted colors
 } Slot;
 
 // Every intermediate value of one pixel, where it is asked for.

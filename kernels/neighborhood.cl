@@ -140,6 +140,12 @@ static uint draw_candidates(const Frame* frame, const rpf_pass* pass, uint pixel
   return count;
 }
 
+static void fetch(const Frame* frame, const rpf_pass* pass, uint candidates, const Slot* slot) {
+  for (uint i = 0; i < candidates; ++i)
+    for (int c = 0; c < RPF_CHUNKS; ++c)
+      __builtin_prefetch((const void*)(size_t)(frame->chunks + (size_t)c * pass->samples + (slot->candidates[i] - pass->first_sample)));
+}
+
 static int is_accepted(const Frame* frame, const rpf_pass* pass, uint sample, const OwnMoments* own) {
   int16 rejected = 0;
 #pragma unroll
@@ -169,45 +175,16 @@ static uint gather(const Frame* frame, const rpf_pass* pass, uint pixel, uint fi
   *drawn = 0;
   for (uint begin = 0; begin < draws && count < pass->enough; begin += RPF_DRAWN_AT_ONCE) {
     const uint candidates = draw_candidates(frame, pass, pixel, begin, min(begin + RPF_DRAWN_AT_ONCE, draws), slot);
+    fetch(frame, pass, candidates, slot);
     if (RPF_PHASES > 1) count = append_accepted(frame, pass, moments, candidates, slot, count);
     *drawn += candidates;
   }
   return count;
 }
 
-static float16 interleave(float8 even, float8 odd) {
-  float16 both;
-  both.even = even;
-  both.odd = odd;
-  return both;
-}
-
-// 16 rows become 16 columns: each of four rounds interleaves row i with row i + 8, which rotates the bits of an
-// element's place (row, column) by one.
-static void transpose(float16* rows) {
-#pragma unroll
-  for (int round = 0; round < 4; ++round) {
-    float16 mixed[RPF_LANES];
-#pragma unroll
-    for (int i = 0; i < RPF_LANES / 2; ++i) {
-      mixed[2 * i] = interleave(rows[i].lo, rows[i + 8].lo);
-      mixed[2 * i + 1] = interleave(rows[i].hi, rows[i + 8].hi);
-    }
-#pragma unroll
-    for (int i = 0; i < RPF_LANES; ++i) rows[i] = mixed[i];
-  }
-}
-
-static void store_column(const Slot* slot, uint place, uint block, float16 values) {
-  if (place < RPF_VARIABLES)
-    slot->columns[variable_at(place) * slot->blocks + block] = values;
-  else if (place < RPF_VARIABLES + RPF_CARRIED)
-    slot->colors[(place - RPF_VARIABLES) * slot->blocks + block] = values;
-}
-
 // What no own sample has is shifted by the first neighbor that has it, by 0 where none has.
-static void settle_shift(const Frame* frame, const rpf_pass* pass, uint neighbors, OwnMoments* moments,
-                         const Slot* slot) {
+static void settle_shift(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot,
+                         OwnMoments* moments) {
   for (int c = 0; c < RPF_CHUNKS; ++c) {
     float16 shift = moments->shift[c];
 #if RPF_MISSING
@@ -216,23 +193,4 @@ static void settle_shift(const Frame* frame, const rpf_pass* pass, uint neighbor
 #endif
     moments->shift[c] = rpf_or_zero(shift);
   }
-}
-
-// Records to columns, less the shift. Behind the last neighbor all values are missing, so that sums leave them out.
-static void fill_columns(const Frame* frame, const rpf_pass* pass, uint neighbors, OwnMoments* moments,
-                         const Slot* slot) {
-  settle_shift(frame, pass, neighbors, moments, slot);
-  for (uint block = 0; block * RPF_LANES < neighbors; ++block)
-    for (int c = 0; c < RPF_CHUNKS; ++c) {
-      float16 rows[RPF_LANES];
-#pragma unroll
-      for (uint l = 0; l < RPF_LANES; ++l) {
-        const uint j = block * RPF_LANES + l;
-        rows[l] = NAN;
-        if (j < neighbors) rows[l] = load_chunk(frame, pass, slot->neighbors[j], c) - moments->shift[c];
-      }
-      transpose(rows);
-#pragma unroll
-      for (int v = 0; v < RPF_LANES; ++v) store_column(slot, (uint)(RPF_LANES * c + v), block, rows[v]);
-    }
 }

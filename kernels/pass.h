@@ -29,7 +29,8 @@ typedef struct {
   uint enough;                  // neighbors, own samples included, at which drawing ends
   uint block;                   // pixels of a square of this width share what section 5 finds
   uint measured;                // neighbors that section 5 looks at, at most
-  uint capacity;                // neighbors that a scratch slot holds, a multiple of RPF_LANES
+  uint capacity;                // neighbors and own samples that a scratch slot holds
+  uint most_samples;            //
   int entropy_slack;            // units that cannot be told from 0 (section 5)
   float nats_per_unit;          //
   float information_bias;       //

@@ -11,8 +11,7 @@
 namespace rpf::kernel {
 #endif
 
-#define RPF_EPSILON 1e-10f     // of (T 5.4) to (T 5.6)
-#define RPF_FLAT_SPREAD 1e-6f  // section 4: a smaller standard deviation, relative to the values, is 0
+#define RPF_EPSILON 1e-10f  // of (T 5.4) to (T 5.6)
 #define RPF_OUTLIER_THRESHOLD \
   1.00001f  // section 7: 1 standard deviation; the excess keeps equality from flipping by rounding
 
@@ -27,27 +26,29 @@ RPF_INLINE uint rpf_choose(uint word, uint count) { return mul_hi(word, count); 
 // Candidates are drawn in portions of so many, until there are enough neighbors.
 #define RPF_DRAWN_AT_ONCE 256u
 
-// ---- section 4: normalization ---------------------------------------------------------------------------------------
-
-// 1 / standard deviation, or 0 where the variable counts as constant. `largest`: largest magnitude of the unshifted
-// values.
-RPF_INLINE float rpf_inverse_deviation(float variance, float largest) {
-  const float deviation = sqrt(variance);
-  return deviation > RPF_FLAT_SPREAD * largest ? 1.0f / deviation : 0.0f;
-}
-
 // ---- section 5: mutual information ----------------------------------------------------------------------------------
 
 // Vectors of RPF_LANES neighbors that hold them all.
 RPF_INLINE uint rpf_blocks(uint neighbors) { return (neighbors + RPF_LANES - 1) / RPF_LANES; }
 
-// Words of a bit plane with one bit a neighbor, a power of two or a multiple of 16 (statistics.cl has the layout).
-RPF_INLINE uint rpf_plane_words(uint neighbors) {
-  const uint blocks = rpf_blocks(neighbors);
-  if (blocks <= 4) return 2;
-  if (blocks <= 8) return 4;
-  return blocks <= 16 ? 8 : (blocks + 31) / 32 * RPF_LANES;
+// Words of a bit plane with one bit a neighbor (statistics.cl has the layout).
+#define RPF_WORD_BITS 64u
+RPF_INLINE uint rpf_plane_words(uint neighbors) { return (neighbors + RPF_WORD_BITS - 1) / RPF_WORD_BITS; }
+
+// Bits of a word that hold one neighbor's bin while planes are made: 32 / that many neighbors come from one word, and
+// neighbor i of word k goes to bit rpf_bin_field(bins) * i + k of its half of a plane's word.
+RPF_INLINE uint rpf_bin_field(uint bins) { return bins > 15 ? 8 : 4; }
+RPF_INLINE uint rpf_plane_bit(uint neighbor, uint bins) {
+  const uint field = rpf_bin_field(bins), in_half = neighbor % 32;
+  return neighbor % RPF_WORD_BITS / 32 * 32 + field * (in_half % (32 / field)) + in_half / (32 / field);
 }
+
+// Bins are counted together in vectors of so many; the last vector may have bins that no value falls into.
+#define RPF_BINS_AT_ONCE 8
+RPF_INLINE uint rpf_bin_vectors(uint bins) { return (bins + RPF_BINS_AT_ONCE - 1) / RPF_BINS_AT_ONCE; }
+
+// Bin of a normalized value, 0 .. 2K.
+RPF_INLINE int rpf_bin(float normalized, int half_bins) { return rpf_signed_bin(normalized, half_bins) + half_bins; }
 
 // I(X,Y) in nats from units = S * (sum h_xy log2 h_xy - sum h_x log2 h_x - sum h_y log2 h_y + N log2 N), an integer sum
 // over the table of src/tables.h. Every entry is off by at most half a unit, so a sum of `slack` units or less is

@@ -1,95 +1,106 @@
-// Sections 4 and 5: normalization, histograms and mutual information. A vector holds RPF_LANES neighbors of one variable.
+// Sections 4 and 5: normalization, histograms and mutual information.
 //
-// Histograms are counted in bit planes: for every variable and bin one bit a neighbor, so that a cell of a joint
-// histogram is popcount(plane of x & plane of y). Bit k of lane l of group g stands for neighbor (32 g + k) 16 + l.
-// Where there is only one group (N <= 512) and it is not full, its lanes are folded together until the words are.
+// Records are read where they are: a vector holds RPF_LANES variables of one neighbor, and what is summed over neighbors is
+// summed for all of them at once.
+//
+// Histograms are counted in bit planes: for every variable and bin one bit a neighbor, so that a cell of a joint histogram is
+// popcount(plane of x & plane of y). Words have 64 neighbors; the words of all bins of a variable stand side by side, so that
+// one vector counts a row of a histogram. Which neighbor has which bit follows from how bins are packed (pack_bins).
 
-// The bins of a variable that any neighbor is in, and how many are in each. What no neighbor is in costs nothing.
+// Section 4 of a neighborhood, by place. Places behind the last variable, c' among them, are left as they are: 0 and 1.
 typedef struct {
-  uint kinds;
-  uchar bin[RPF_BINS];
-  uint count[RPF_BINS];
-} OccupiedBins;
+  float16 shift[RPF_CHUNKS], mean[RPF_CHUNKS], inverse_deviation[RPF_CHUNKS];
+} Normalization;
 
-// The tree of rpf_lanes_total.
-static float lanes_total(float16 sum) {
-  const float8 a = sum.lo + sum.hi;
-  const float4 b = a.lo + a.hi;
-  const float2 c = b.lo + b.hi;
-  return c.x + c.y;
+// Variables of neighbor j, less the shift.
+static float16 shifted(const Frame* frame, const rpf_pass* pass, const Slot* slot, uint j, int chunk, float16 shift) {
+  return load_chunk(frame, pass, slot->neighbors[j], chunk) - shift;
 }
 
-static float largest_lane(float16 value) {
-  const float8 a = value.lo > value.hi ? value.lo : value.hi;
-  const float4 b = a.lo > a.hi ? a.lo : a.hi;
-  const float2 c = b.lo > b.hi ? b.lo : b.hi;
-  return c.x > c.y ? c.x : c.y;
+static float16 normalized(const Frame* frame, const rpf_pass* pass, const Slot* slot, uint j, int chunk,
+                          const Normalization* n) {
+  return rpf_normalize(shifted(frame, pass, slot, j, chunk, n->shift[chunk]), n->mean[chunk],
+                       n->inverse_deviation[chunk]);
 }
 
-static int count_lanes(int16 value) {
-  const int8 a = value.lo + value.hi;
-  const int4 b = a.lo + a.hi;
-  return b.x + b.y + b.z + b.w;
-}
+static float16 or_zero(float16 value) { return RPF_MISSING ? rpf_or_zero(value) : value; }
 
-// Sums of a column. Where the frame has no missing values (RPF_MISSING 0) only the last block can hold any: behind the last
-// neighbor.
+// Sums over the neighbors, for RPF_LANES variables.
 typedef struct {
-  float16 sum, largest;
+  rpf_lanes16 values;
+  float16 largest;
   int16 missing;
-} ColumnSums;
+} RecordSums;
 
-static void add_values(float16 value, float shift, int may_miss, ColumnSums* sums) {
-  const float16 magnitude = fabs(value + shift);
-  sums->largest = magnitude > sums->largest ? magnitude : sums->largest;
-  sums->sum += may_miss ? rpf_or_zero(value) : value;
-  if (may_miss) sums->missing += rpf_is_missing(value) ? 1 : 0;
-}
-
-static float16 squared(float16 value, float mean, int may_miss) {
-  const float16 off = value - mean;
-  return may_miss ? rpf_or_zero(off * off) : off * off;
-}
-
-// Section 4 for one variable, in place. Returns mean (relative to the shift) and inverse deviation.
-static float2 normalize_column(__global float16* column, uint neighbors, float shift) {
-  const uint full = neighbors / RPF_LANES, blocks = rpf_blocks(neighbors);
-  ColumnSums sums = {0.0f, 0.0f, 0};
-  for (uint b = 0; b < full; ++b) add_values(column[b], shift, RPF_MISSING, &sums);
-  if (full < blocks) add_values(column[full], shift, 1, &sums);
-  const int count = (int)(blocks * RPF_LANES) - count_lanes(sums.missing);
-  float2 moments = 0.0f;
-  if (count > 0) {
-    moments.x = lanes_total(sums.sum) / (float)count;
-    float16 squares = 0.0f;
-    for (uint b = 0; b < full; ++b) squares += squared(column[b], moments.x, RPF_MISSING);
-    if (full < blocks) squares += squared(column[full], moments.x, 1);
-    moments.y = rpf_inverse_deviation(lanes_total(squares) / (float)count, largest_lane(sums.largest));
+static void sum_values(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot, int chunk,
+                       float16 shift, RecordSums* out) {
+  RecordSums sums;
+  rpf_lanes_clear(&sums.values);
+  sums.largest = 0.0f;
+  sums.missing = 0;
+  for (uint block = 0; block < neighbors; block += RPF_LANES) {
+#pragma unroll
+    for (uint l = 0; l < RPF_LANES; ++l) {
+      if (block + l >= neighbors) continue;
+      const float16 value = shifted(frame, pass, slot, block + l, chunk, shift), magnitude = fabs(value + shift);
+      sums.largest = magnitude > sums.largest ? magnitude : sums.largest;
+      sums.values.lane[l] += or_zero(value);
+      if (RPF_MISSING) sums.missing += rpf_is_missing(value) ? 1 : 0;
+    }
   }
-  for (uint b = 0; b < blocks; ++b) column[b] = rpf_normalize(column[b], moments.x, moments.y);
-  return moments;
+  *out = sums;
 }
 
-// Stores one group of a plane; one that is not full is folded to `words` words.
-static void store_plane(__global uint* plane, uint16 bits, uint words, uint blocks) {
-  if (words >= 16) {
-    vstore16(bits, 0, plane);
-    return;
+static float16 sum_squares(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot, int chunk,
+                           float16 shift, float16 mean) {
+  rpf_lanes16 sum;
+  rpf_lanes_clear(&sum);
+  for (uint block = 0; block < neighbors; block += RPF_LANES) {
+#pragma unroll
+    for (uint l = 0; l < RPF_LANES; ++l) {
+      if (block + l >= neighbors) continue;
+      const float16 off = shifted(frame, pass, slot, block + l, chunk, shift) - mean;
+      sum.lane[l] += or_zero(off * off);
+    }
   }
-  const uint8 halves = bits.lo | bits.hi << blocks;
-  if (words == 8) {
-    vstore8(halves, 0, plane);
-    return;
-  }
-  const uint4 quarters = halves.lo | halves.hi << 2 * blocks;
-  if (words == 4)
-    vstore4(quarters, 0, plane);
-  else
-    vstore2(quarters.lo | quarters.hi << 4 * blocks, 0, plane);
+  return rpf_lanes_total(&sum);
 }
 
-// Bits of a bin's number.
+// Section 4, but for the normalized values themselves: they are computed where they are needed. `shift` is set.
+static void measure_moments(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot,
+                            Normalization* n) {
+  for (int c = 0; c < RPF_CHUNKS; ++c) {
+    const int16 is_variable = RPF_LANE_NUMBERS < RPF_VARIABLES - RPF_LANES * c;
+    RecordSums sums;
+    sum_values(frame, pass, neighbors, slot, c, n->shift[c], &sums);
+    const int16 present = (int)neighbors - sums.missing;
+    const float16 count = convert_float16(present);
+    const float16 mean = present == 0 ? 0.0f : rpf_lanes_total(&sums.values) / count;
+    const float16 squares = sum_squares(frame, pass, neighbors, slot, c, n->shift[c], mean);
+    const float16 inverse = present == 0 ? 0.0f : rpf_inverse_deviation(squares / count, sums.largest);
+    n->mean[c] = is_variable ? mean : 0.0f;
+    n->inverse_deviation[c] = is_variable ? inverse : 1.0f;
+  }
+}
+
+// The bins of some neighbors go into one word each, a field a neighbor, then bit i of all fields into plane i.
+#define RPF_FIELD_BITS (RPF_BINS > 15 ? 8 : 4)
+#define RPF_FIELDS (32 / RPF_FIELD_BITS)
 #define RPF_BIN_BITS (RPF_BINS > 15 ? 5 : RPF_BINS > 7 ? 4 : RPF_BINS > 3 ? 3 : 2)
+#define RPF_EACH_FIELD (RPF_BINS > 15 ? 0x01010101u : 0x11111111u)
+
+// The bins of neighbors begin .. end - 1, RPF_FIELDS at most, for RPF_LANES variables.
+static uint16 pack_bins(const Frame* frame, const rpf_pass* pass, uint begin, uint end, const Slot* slot, int chunk,
+                        const Normalization* n) {
+  int16 fields = 0;
+#pragma unroll
+  for (uint i = 0; i < RPF_FIELDS; ++i) {
+    if (begin + i >= end) break;
+    const float16 value = normalized(frame, pass, slot, begin + i, chunk, n);
+    fields += rpf_signed_bin(value, RPF_HALF_BINS) * (1 << (RPF_FIELD_BITS * i));
+  }
+  return as_uint16(fields) + RPF_EACH_FIELD * RPF_HALF_BINS;
+}
 
 // The plane of one bin from the planes of the bits of its number. `bin` is a constant once the loop is unrolled.
 static uint16 plane_of(const uint16* number, int bin, uint16 is_neighbor) {
@@ -99,128 +110,181 @@ static uint16 plane_of(const uint16* number, int bin, uint16 is_neighbor) {
   return plane;
 }
 
-// The bit planes of one normalized column.
-static void fill_planes(__global const float16* column, uint neighbors, uint words, __global uint* planes) {
-  const uint blocks = rpf_blocks(neighbors);
-  for (uint group = 0; group * 32 < blocks; ++group) {
-    uint16 number[RPF_BIN_BITS];
+// Bit planes of RPF_LANES variables, of up to 32 neighbors: [bin], a variable a lane. Field i of word k becomes bit
+// RPF_FIELD_BITS i + k.
+static void fill_half_words(const Frame* frame, const rpf_pass* pass, uint begin, uint end, const Slot* slot, int chunk,
+                            const Normalization* n, uint16* planes) {
+  uint16 number[RPF_BIN_BITS];
+  uint is_neighbor = 0;
 #pragma unroll
-    for (int i = 0; i < RPF_BIN_BITS; ++i) number[i] = 0;
-    const uint end = min(blocks - group * 32, 32u);
-    for (uint k = 0; k < end; ++k) {
-      const uint16 bin = as_uint16(rpf_bin(column[group * 32 + k], RPF_HALF_BINS));
+  for (int i = 0; i < RPF_BIN_BITS; ++i) number[i] = 0;
+  for (uint k = 0; k < RPF_FIELD_BITS && begin < end; ++k, begin += RPF_FIELDS) {
+    const uint16 bins = pack_bins(frame, pass, begin, end, slot, chunk, n);
+    const uint fields = min(end - begin, (uint)RPF_FIELDS);
+    is_neighbor |= (RPF_EACH_FIELD >> (32 - RPF_FIELD_BITS * fields)) << k;
 #pragma unroll
-      for (int i = 0; i < RPF_BIN_BITS; ++i) number[i] = (bin & 1u << i) != 0 ? number[i] | 1u << k : number[i];
+    for (int i = 0; i < RPF_BIN_BITS; ++i) number[i] |= (bins >> i & RPF_EACH_FIELD) << k;
+  }
+#pragma unroll
+  for (int bin = 0; bin < RPF_BINS; ++bin) planes[bin] = plane_of(number, bin, is_neighbor);
+}
+
+// The bit planes of all variables.
+static void fill_planes(const Frame* frame, const rpf_pass* pass, uint neighbors, uint words, const Slot* slot,
+                        const Normalization* n) {
+  for (int chunk = 0; chunk * RPF_LANES < RPF_VARIABLES; ++chunk)
+    for (uint word = 0; word < words; ++word) {
+      const uint begin = word * RPF_WORD_BITS, middle = min(begin + RPF_WORD_BITS / 2, neighbors);
+      uint16 halves[2][RPF_BIN_VECTORS * RPF_BINS_AT_ONCE];
+#pragma unroll
+      for (int bin = RPF_BINS; bin < RPF_BIN_VECTORS * RPF_BINS_AT_ONCE; ++bin) halves[0][bin] = halves[1][bin] = 0;
+      fill_half_words(frame, pass, begin, middle, slot, chunk, n, halves[0]);
+      fill_half_words(frame, pass, middle, min(begin + RPF_WORD_BITS, neighbors), slot, chunk, n, halves[1]);
+#pragma unroll
+      for (int v = 0; v < RPF_BIN_VECTORS; ++v) {
+        float16 rows[RPF_LANES];
+#pragma unroll
+        for (int bin = 0; bin < RPF_BINS_AT_ONCE; ++bin) {
+          rows[2 * bin] = as_float16(halves[0][v * RPF_BINS_AT_ONCE + bin]);
+          rows[2 * bin + 1] = as_float16(halves[1][v * RPF_BINS_AT_ONCE + bin]);
+        }
+        transpose(rows);
+#pragma unroll
+        for (int l = 0; l < RPF_LANES; ++l) {
+          const uint place = (uint)(RPF_LANES * chunk + l);
+          if (place < RPF_VARIABLES)
+            slot->planes[(variable_at(place) * words + word) * RPF_BIN_VECTORS + v] = as_ulong8(rows[l]);
+        }
+      }
     }
-    // Full blocks have all bits; in the last block only the lanes of neighbors count.
-    const uint full = min(neighbors / RPF_LANES - group * 32, 32u);
-    const uint full_bits = full == 32 ? 0xFFFFFFFFu : (1u << full) - 1;
-    const int16 in_last = RPF_LANE_NUMBERS < (int)(neighbors % RPF_LANES);
-    const uint16 is_neighbor = full_bits | (as_uint16(in_last) & (full < end ? 1u << full : 0));
+}
+
+// Of every word of 64 bits. OpenCL's popcount is compiled to one scalar after the other.
+static ulong8 count_bits(ulong8 words) {
+#ifdef RPF_AVX512
+  return as_ulong8(__builtin_ia32_vpopcntq_512(as_long8(words)));
+#else
+  return popcount(words);
+#endif
+}
+
+// The bins of a variable: how many neighbors are in each, and which ones have any.
+typedef struct {
+  uint8 count[RPF_BIN_VECTORS];
+  uint kinds;
+  uchar bin[RPF_BINS];
+} Margin;
+
+// Sum of S h log2 h over a row of a histogram.
+static uint entropy_of(__global const int* entropy, const uint8* row) {
+  uint units = 0;
 #pragma unroll
-    for (int bin = 0; bin < RPF_BINS; ++bin)
-      store_plane(planes + bin * words + group * RPF_LANES, plane_of(number, bin, is_neighbor), words, blocks);
+  for (int v = 0; v < RPF_BIN_VECTORS; ++v) {
+    uint count[RPF_BINS_AT_ONCE];
+    vstore8(row[v], 0, count);
+#pragma unroll
+    for (int b = 0; b < min(RPF_BINS - v * RPF_BINS_AT_ONCE, RPF_BINS_AT_ONCE); ++b) units += (uint)entropy[count[b]];
   }
+  return units;
 }
 
-static uint count_bits(__global const ulong* plane, uint words) {
-  ulong count = 0;
-  for (uint w = 0; w < words / 2; ++w) count += popcount(plane[w]);
-  return (uint)count;
-}
-
-// Of two planes with a third one: what the loop costs is shared.
-static uint2 count_common_bits(__global const ulong* a, __global const ulong* b0, __global const ulong* b1, uint words) {
-  ulong count0 = 0, count1 = 0;
-  for (uint w = 0; w < words / 2; ++w) {
-    const ulong bits = a[w];
-    count0 += popcount(bits & b0[w]);
-    count1 += popcount(bits & b1[w]);
+static void count_margin(__global const ulong8* planes, uint words, Margin* out) {
+  ulong8 sum[RPF_BIN_VECTORS];
+  uint count[RPF_BIN_VECTORS * RPF_BINS_AT_ONCE];
+#pragma unroll
+  for (int v = 0; v < RPF_BIN_VECTORS; ++v) {
+    sum[v] = 0;
+    for (uint w = 0; w < words; ++w) sum[v] += count_bits(planes[w * RPF_BIN_VECTORS + v]);
+    out->count[v] = convert_uint8(sum[v]);
+    vstore8(out->count[v], v, count);
   }
-  return (uint2)((uint)count0, (uint)count1);
-}
-
-static void find_occupied_bins(__global const uint* planes, uint words, OccupiedBins* out) {
   out->kinds = 0;
   for (int bin = 0; bin < RPF_BINS; ++bin) {
-    const uint count = count_bits((__global const ulong*)(planes + bin * words), words);
     out->bin[out->kinds] = (uchar)bin;
-    out->count[out->kinds] = count;
-    out->kinds += count > 0;
+    out->kinds += count[bin] > 0;
     if (out->kinds == RPF_BINS) break;
   }
 }
 
-static uint entropy_of(__global const int* entropy, const OccupiedBins* x) {
-  uint units = 0;
-  for (uint a = 0; a < x->kinds; ++a) units += (uint)entropy[x->count[a]];
-  return units;
-}
+// Rows of a joint histogram that are counted together: what the planes of y cost is shared.
+#define RPF_ROWS 3
 
-static void trace_cell(const Trace* trace, uint pair, const OccupiedBins* x, uint a, const OccupiedBins* y, uint b,
-                       uint count) {
-  if (trace->values) trace->histograms[(pair * RPF_BINS + x->bin[a]) * RPF_BINS + y->bin[b]] = count;
-}
-
-// Sum of S h log2 h over the joint histogram of x and y, modulo 2^32. The last row and column follow from the margins.
-static uint joint_entropy(__global const int* entropy, __global const uint* planes_x, const OccupiedBins* x,
-                          __global const uint* planes_y, const OccupiedBins* y, uint words, const Trace* trace,
-                          uint pair) {
-  const uint last_x = x->kinds - 1, last_y = y->kinds - 1;
-  uint units = 0, left[RPF_BINS];
-  for (uint b = 0; b <= last_y; ++b) left[b] = y->count[b];
-  for (uint a = 0; a < last_x; ++a) {
-    __global const ulong* plane = (__global const ulong*)(planes_x + x->bin[a] * words);
-    uint rest = x->count[a];
-    for (uint b = 0; b < last_y; b += 2) {
-      const uint next = b + 1 < last_y ? b + 1 : b;  // the same again where the number is odd: counts once
-      const uint2 count = count_common_bits(plane, (__global const ulong*)(planes_y + y->bin[b] * words),
-                                            (__global const ulong*)(planes_y + y->bin[next] * words), words);
-      units += (uint)entropy[count.x];
-      rest -= count.x;
-      left[b] -= count.x;
-      trace_cell(trace, pair, x, a, y, b, count.x);
-      if (next == b) break;
-      units += (uint)entropy[count.y];
-      rest -= count.y;
-      left[next] -= count.y;
-      trace_cell(trace, pair, x, a, y, next, count.y);
+// Rows of the joint histogram of x and y, by the planes of some bins of x.
+static void count_rows(__global const ulong8* planes_x, const uchar* bins, __global const ulong8* planes_y, uint words,
+                       uint8 (*rows)[RPF_BIN_VECTORS]) {
+  __global const ulong* x = (__global const ulong*)planes_x;
+  const uint bin0 = bins[0], bin1 = bins[1], bin2 = bins[2], stride = RPF_BIN_VECTORS * RPF_BINS_AT_ONCE;
+#pragma unroll
+  for (int v = 0; v < RPF_BIN_VECTORS; ++v) {
+    ulong8 count0 = 0, count1 = 0, count2 = 0;
+    for (uint w = 0; w < words; ++w) {
+      const ulong8 y = planes_y[w * RPF_BIN_VECTORS + v];
+      count0 += count_bits(y & x[w * stride + bin0]);
+      count1 += count_bits(y & x[w * stride + bin1]);
+      count2 += count_bits(y & x[w * stride + bin2]);
     }
-    units += (uint)entropy[rest];
-    left[last_y] -= rest;
-    trace_cell(trace, pair, x, a, y, last_y, rest);
+    rows[0][v] = convert_uint8(count0);
+    rows[1][v] = convert_uint8(count1);
+    rows[2][v] = convert_uint8(count2);
   }
-  for (uint b = 0; b <= last_y; ++b) {
-    units += (uint)entropy[left[b]];
-    trace_cell(trace, pair, x, last_x, y, b, left[b]);
+}
+
+static void trace_row(const Trace* trace, uint pair, uint bin, const uint8* row) {
+  if (!trace->values) return;
+  uint count[RPF_BIN_VECTORS * RPF_BINS_AT_ONCE];
+  for (int v = 0; v < RPF_BIN_VECTORS; ++v) vstore8(row[v], v, count);
+  for (int b = 0; b < RPF_BINS; ++b) trace->histograms[(pair * RPF_BINS + bin) * RPF_BINS + b] = count[b];
+}
+
+// Sum of S h log2 h over the joint histogram of x and y, modulo 2^32. The last row follows from the margin of y.
+static uint joint_entropy(__global const int* entropy, __global const ulong8* planes_x, const Margin* x,
+                          __global const ulong8* planes_y, const Margin* y, uint words, const Trace* trace, uint pair) {
+  const uint last = x->kinds - 1;
+  uint units = 0;
+  uint8 left[RPF_BIN_VECTORS];
+#pragma unroll
+  for (int v = 0; v < RPF_BIN_VECTORS; ++v) left[v] = y->count[v];
+  for (uint a = 0; a < last; a += RPF_ROWS) {
+    uchar bins[RPF_ROWS];
+    uint8 rows[RPF_ROWS][RPF_BIN_VECTORS];
+#pragma unroll
+    for (uint i = 0; i < RPF_ROWS; ++i) bins[i] = x->bin[min(a + i, last)];
+    count_rows(planes_x, bins, planes_y, words, rows);
+#pragma unroll
+    for (uint i = 0; i < RPF_ROWS; ++i) {
+      if (a + i >= last) continue;
+      units += entropy_of(entropy, rows[i]);
+      trace_row(trace, pair, bins[i], rows[i]);
+#pragma unroll
+      for (int v = 0; v < RPF_BIN_VECTORS; ++v) left[v] -= rows[i][v];
+    }
   }
-  return units;
+  trace_row(trace, pair, x->bin[last], left);
+  return units + entropy_of(entropy, left);
 }
 
 // Section 5, first half: information[pair], every color with every variable but the colors, then every feature with
 // position and random parameters.
 static void measure_dependencies(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot,
-                                 const Trace* trace, float* information) {
-  const uint words = rpf_plane_words(neighbors), variable_words = RPF_BINS * words;
-  OccupiedBins occupied[RPF_VARIABLES];
-  uint margin[RPF_VARIABLES];
+                                 const Normalization* n, const Trace* trace, float* information) {
+  const uint words = rpf_plane_words(neighbors), variable_planes = words * RPF_BIN_VECTORS;
+  Margin margin[RPF_VARIABLES];
+  uint units[RPF_VARIABLES];
+  fill_planes(frame, pass, neighbors, words, slot, n);
   for (uint v = 0; v < RPF_VARIABLES; ++v) {
-    __global uint* planes = slot->planes + v * variable_words;
-    fill_planes(slot->columns + v * slot->blocks, neighbors, words, planes);
-    find_occupied_bins(planes, words, &occupied[v]);
-    margin[v] = entropy_of(frame->entropy, &occupied[v]);
+    count_margin(slot->planes + v * variable_planes, words, &margin[v]);
+    units[v] = entropy_of(frame->entropy, margin[v].count);
   }
   const uint all = (uint)frame->entropy[neighbors];
   uint pair = 0;
   for (uint x = 0; x < RPF_VARIABLES; x = x == 2 ? RPF_FIRST_FEATURE : x + 1) {
     const uint end = x < RPF_POSITION ? RPF_VARIABLES : RPF_FIRST_FEATURE;
     for (uint y = RPF_POSITION; y < end; ++y, ++pair) {
-      const uint joint =
-          joint_entropy(frame->entropy, slot->planes + x * variable_words, &occupied[x],
-                        slot->planes + y * variable_words, &occupied[y], words, trace, pair);
+      const uint joint = joint_entropy(frame->entropy, slot->planes + x * variable_planes, &margin[x],
+                                       slot->planes + y * variable_planes, &margin[y], words, trace, pair);
       information[pair] =
-          rpf_mutual_information((int)(joint - margin[x] - margin[y] + all), pass->entropy_slack,
-                                 pass->nats_per_unit, pass->information_bias, (float)neighbors);
+          rpf_mutual_information((int)(joint - units[x] - units[y] + all), pass->entropy_slack, pass->nats_per_unit,
+                                 pass->information_bias, (float)neighbors);
     }
   }
 }

@@ -19,7 +19,7 @@ typedef struct {
   uint color_weights;                                    // W_c,i^r (3), W_c^r, alpha (3)
   uint feature_fraction_random, fraction_feature, beta;  // [features]
   uint filtered;                                         // [own][carried], before the outlier step
-  uint weights;                                          // [own][N]
+  uint weights;                                          // [own][N], and behind them [N][variables] normalized values
 } rpf_trace_layout;
 
 RPF_INLINE uint rpf_pairs(uint random, uint features) { return 3 * (2 + random + features) + features * (2 + random); }

@@ -3,66 +3,113 @@
 // Own samples that are filtered together: a neighbor's coordinates are read once for all of them.
 #define RPF_BATCH (RPF_SAMPLES > 0 && RPF_SAMPLES < 4 ? RPF_SAMPLES : 4)
 
-// The variables that take part in the distance: colors first, then features, and what their values are multiplied with.
+// The variables that take part in the distance, colors first, then features, and what their values are multiplied with.
 typedef struct {
   uint count;
-  uint column[3 + RPF_FEATURES];
-  float scale[3 + RPF_FEATURES];
+  ushort place[3 + RPF_FEATURES];
+  ushort column_of[RPF_CHUNKS * RPF_LANES];  // by place
+  float16 scale[RPF_CHUNKS];                // by place; c' is left as it is
 } Coordinates;
 
-static void add_coordinate(uint variable, float scale, Coordinates* out) {
+#define RPF_FIRST_COLOR (3 + RPF_FEATURES)  // first column of c'
+
+static void add_coordinate(uint variable, float scale, float* scales, Coordinates* out) {
   if (!(scale > 0.0f)) return;
-  out->column[out->count] = variable;
-  out->scale[out->count] = scale;
+  const uint place = place_of(variable);
+  out->column_of[place] = (ushort)out->count;
+  out->place[out->count] = (ushort)place;
   ++out->count;
+  scales[place] = scale;
 }
 
 static void choose_coordinates(const rpf_pass* pass, uint own, const rpf_color_weights* color, const float* beta,
                                Coordinates* out) {
   const float sharpness = rpf_sharpness(color->fraction_random, pass->noise, own);
+  float scales[RPF_CHUNKS * RPF_LANES];
+  for (uint place = 0; place < RPF_CHUNKS * RPF_LANES; ++place) {
+    const int is_color = place >= RPF_VARIABLES && place < RPF_VARIABLES + RPF_CARRIED;
+    out->column_of[place] = (ushort)(is_color ? RPF_FIRST_COLOR + place - RPF_VARIABLES : RPF_COLUMNS - 1);
+    scales[place] = 1.0f;
+  }
   out->count = 0;
-  for (uint i = 0; i < 3; ++i) add_coordinate(i, rpf_distance_scale(sharpness, color->alpha[i]), out);
+  for (uint i = 0; i < 3; ++i) add_coordinate(i, rpf_distance_scale(sharpness, color->alpha[i]), scales, out);
   for (uint k = 0; k < RPF_FEATURES; ++k)
-    add_coordinate(RPF_FIRST_FEATURE + k, rpf_distance_scale(sharpness, beta[k]), out);
+    add_coordinate(RPF_FIRST_FEATURE + k, rpf_distance_scale(sharpness, beta[k]), scales, out);
+  for (int c = 0; c < RPF_CHUNKS; ++c) out->scale[c] = vload16(c, scales);
 }
 
-// Behind the last neighbor stands the first one's c': it has no weight, and it is inside every range.
-static void fill_up_colors(uint neighbors, const Slot* slot) {
-  if (neighbors % RPF_LANES == 0) return;
-  for (int c = 0; c < RPF_CARRIED; ++c) {
-    __global float16* column = slot->colors + c * slot->blocks;
-    const int16 is_neighbor = RPF_LANE_NUMBERS < (int)(neighbors % RPF_LANES);
-    column[neighbors / RPF_LANES] = is_neighbor ? column[neighbors / RPF_LANES] : column[0].s0;
+// The tree of rpf_lanes_total.
+static float lanes_total(float16 sum) {
+  const float8 a = sum.lo + sum.hi;
+  const float4 b = a.lo + a.hi;
+  const float2 c = b.lo + b.hi;
+  return c.x + c.y;
+}
+
+static float smallest_lane(float16 value) {
+  const float8 a = value.lo < value.hi ? value.lo : value.hi;
+  const float4 b = a.lo < a.hi ? a.lo : a.hi;
+  const float2 c = b.lo < b.hi ? b.lo : b.hi;
+  return c.x < c.y ? c.x : c.y;
+}
+
+static float largest_lane(float16 value) { return -smallest_lane(-value); }
+
+// What is filtered, and with what.
+typedef struct {
+  uint own, neighbors;
+  const Normalization* normalization;
+  Coordinates coordinates;
+} Means;
+
+// A stretch of neighbors, from block `first` on, as columns: the scaled coordinates and c'. Behind the last neighbor the first one
+// is repeated: it gets no weight, and its color is inside every range.
+static void fill_columns(const Frame* frame, const rpf_pass* pass, const Slot* slot, const Means* means, uint first,
+                         uint last) {
+  for (uint block = first; block < last; ++block)
+    for (int c = 0; c < RPF_CHUNKS; ++c) {
+      float16 rows[RPF_LANES];
+#pragma unroll
+      for (uint l = 0; l < RPF_LANES; ++l) {
+        const uint j = block * RPF_LANES + l;
+        rows[l] = normalized(frame, pass, slot, j < means->neighbors ? j : 0, c, means->normalization) *
+                  means->coordinates.scale[c];
+      }
+      transpose(rows);
+#pragma unroll
+      for (int l = 0; l < RPF_LANES; ++l)
+        slot->columns[means->coordinates.column_of[RPF_LANES * c + l] * RPF_STRETCH + block - first] = rows[l];
+    }
+}
+
+// The scaled coordinates of a batch of own samples. Behind the last own sample that one is repeated.
+static void load_own(const Frame* frame, const rpf_pass* pass, const Slot* slot, const Means* means, uint begin,
+                     float (*own)[3 + RPF_FEATURES]) {
+  for (uint i = 0; i < RPF_BATCH; ++i) {
+    float values[RPF_CHUNKS * RPF_LANES];
+    for (int c = 0; c < RPF_CHUNKS; ++c)
+      vstore16(normalized(frame, pass, slot, min(begin + i, means->own - 1), c, means->normalization) *
+                   means->coordinates.scale[c],
+               c, values);
+    for (uint a = 0; a < means->coordinates.count; ++a) own[i][a] = values[means->coordinates.place[a]];
   }
 }
 
-static float smallest_lane(float16 value) { return -largest_lane(-value); }
-
-// The range of one carried channel over the neighbors.
-static float2 range_of(__global const float16* column, uint blocks) {
-  float16 smallest = column[0], largest = column[0];
-  for (uint b = 1; b < blocks; ++b) {
-    smallest = column[b] < smallest ? column[b] : smallest;
-    largest = column[b] > largest ? column[b] : largest;
-  }
-  return (float2)(smallest_lane(smallest), largest_lane(largest));
-}
-
-// Weights of RPF_LANES neighbors for each own sample of the batch.
-static void block_weights(const Slot* slot, const Coordinates* coordinates, float (*own)[3 + RPF_FEATURES], uint block,
-                          uint neighbors, float16* weight) {
+// Weights of the RPF_LANES neighbors in a block of the columns for each own sample of the batch.
+static void block_weights(const Slot* slot, uint coordinates, float (*own)[3 + RPF_FEATURES], uint block,
+                          int neighbors_left, float16* weight) {
   float16 distance[RPF_BATCH];
 #pragma unroll
   for (int i = 0; i < RPF_BATCH; ++i) distance[i] = 0.0f;
-  for (uint a = 0; a < coordinates->count; ++a) {
-    const float16 value = slot->columns[coordinates->column[a] * slot->blocks + block] * coordinates->scale[a];
+  for (uint a = 0; a < coordinates; ++a) {
+    const float16 value = slot->columns[a * RPF_STRETCH + block];
 #pragma unroll
     for (int i = 0; i < RPF_BATCH; ++i) {
       const float16 difference = own[i][a] - value;
       distance[i] += difference * difference;
     }
   }
-  const int16 is_neighbor = RPF_LANE_NUMBERS < (int)(neighbors - block * RPF_LANES);
+  const int16 is_neighbor = RPF_LANE_NUMBERS < neighbors_left;
 #pragma unroll
   for (int i = 0; i < RPF_BATCH; ++i) weight[i] = is_neighbor ? rpf_weight(distance[i]) : 0.0f;
 }
@@ -75,72 +122,86 @@ static void trace_weights(const Trace* trace, uint sample, uint neighbors, uint 
   for (uint l = 0; l < RPF_LANES && block * RPF_LANES + l < neighbors; ++l) to[l] = lane[l];
 }
 
-// The weighted sums of RPF_BATCH own samples.
+// The weighted sums of a batch over a stretch.
 typedef struct {
   float16 weight[RPF_BATCH], color[RPF_BATCH][RPF_CARRIED];
 } Sums;
 
-static void clear_sums(Sums* sums) {
+// The stretch from block `first` on, whose columns are filled, for the own samples from `begin` on.
+static void sum_stretch(const Slot* slot, const Means* means, float (*own)[3 + RPF_FEATURES], uint begin, uint first,
+                        uint last, const Trace* trace, Sums* sums) {
 #pragma unroll
   for (int i = 0; i < RPF_BATCH; ++i) {
     sums->weight[i] = 0.0f;
     for (int c = 0; c < RPF_CARRIED; ++c) sums->color[i][c] = 0.0f;
   }
-}
-
-// Adds the blocks [first, last), one stretch, to the sums of the own samples from `begin`.
-static void add_stretch(const Slot* slot, const Coordinates* coordinates, float (*own_value)[3 + RPF_FEATURES],
-                        uint begin, uint own, uint neighbors, uint first, uint last, const Trace* trace, Sums* sums) {
-  Sums stretch;
-  float16 weight[RPF_BATCH];
-  clear_sums(&stretch);
   for (uint block = first; block < last; ++block) {
-    block_weights(slot, coordinates, own_value, block, neighbors, weight);
+    float16 weight[RPF_BATCH];
+    block_weights(slot, means->coordinates.count, own, block - first, (int)(means->neighbors - block * RPF_LANES), weight);
 #pragma unroll
     for (int i = 0; i < RPF_BATCH; ++i) {
-      stretch.weight[i] += weight[i];
-      for (int c = 0; c < RPF_CARRIED; ++c) stretch.color[i][c] += weight[i] * slot->colors[c * slot->blocks + block];
-      if (begin + i < own) trace_weights(trace, begin + i, neighbors, block, weight[i]);
+      sums->weight[i] += weight[i];
+      for (int c = 0; c < RPF_CARRIED; ++c)
+        sums->color[i][c] += weight[i] * slot->columns[(RPF_FIRST_COLOR + c) * RPF_STRETCH + block - first];
+      if (begin + i < means->own) trace_weights(trace, begin + i, means->neighbors, block, weight[i]);
     }
   }
+}
+
+// Adds a stretch to the sums of all own samples.
+static void add_stretch(const Frame* frame, const rpf_pass* pass, const Slot* slot, const Means* means, uint first,
+                        uint last, const Trace* trace) {
+  for (uint begin = 0; begin < means->own; begin += RPF_BATCH) {
+    float own[RPF_BATCH][3 + RPF_FEATURES];
+    Sums stretch;
+    load_own(frame, pass, slot, means, begin, own);
+    sum_stretch(slot, means, own, begin, first, last, trace, &stretch);
 #pragma unroll
-  for (int i = 0; i < RPF_BATCH; ++i) {
-    sums->weight[i] += stretch.weight[i];
-    for (int c = 0; c < RPF_CARRIED; ++c) sums->color[i][c] += stretch.color[i][c];
-  }
-}
-
-// Filters RPF_BATCH own samples from `begin`: out[own][RPF_CARRIED]. Behind the last own sample it repeats that one.
-static void filter_batch(const Slot* slot, const Coordinates* coordinates, uint begin, uint own, uint neighbors,
-                         const float2* range, const Trace* trace, __global float* out) {
-  const uint blocks = rpf_blocks(neighbors);
-  float own_value[RPF_BATCH][3 + RPF_FEATURES];
-  Sums sums;
-  for (uint i = 0; i < RPF_BATCH; ++i) {
-    const uint sample = min(begin + i, own - 1);
-    for (uint a = 0; a < coordinates->count; ++a) {
-      __global const float* column = (__global const float*)(slot->columns + coordinates->column[a] * slot->blocks);
-      own_value[i][a] = column[sample] * coordinates->scale[a];
+    for (uint i = 0; i < RPF_BATCH; ++i) {
+      if (begin + i >= means->own) continue;
+      __global float16* sums = slot->sums + (begin + i) * (1 + RPF_CARRIED);
+      sums[0] += stretch.weight[i];
+      for (int c = 0; c < RPF_CARRIED; ++c) sums[1 + c] += stretch.color[i][c];
     }
   }
-  clear_sums(&sums);
-  for (uint block = 0; block < blocks; block += RPF_STRETCH)
-    add_stretch(slot, coordinates, own_value, begin, own, neighbors, block, min(block + RPF_STRETCH, blocks), trace,
-                &sums);
-  for (uint i = 0; i < RPF_BATCH && begin + i < own; ++i)
-    for (int c = 0; c < RPF_CARRIED; ++c)
-      out[(begin + i) * RPF_CARRIED + c] =
-          rpf_filtered(lanes_total(sums.color[i][c]), lanes_total(sums.weight[i]), range[c].x, range[c].y);
 }
 
-static void filter_samples(uint own, uint neighbors, const Slot* slot, const Coordinates* coordinates,
-                           const Trace* trace, __global float* out) {
-  fill_up_colors(neighbors, slot);
-  float2 range[RPF_CARRIED];
+// The smallest and largest of every carried channel.
+typedef struct {
+  float16 smallest[RPF_CARRIED], largest[RPF_CARRIED];
+} Ranges;
+
+static void widen(const Slot* slot, uint blocks, Ranges* ranges) {
   for (int c = 0; c < RPF_CARRIED; ++c)
-    range[c] = range_of(slot->colors + c * slot->blocks, rpf_blocks(neighbors));
-  for (uint begin = 0; begin < own; begin += RPF_BATCH)
-    filter_batch(slot, coordinates, begin, own, neighbors, range, trace, out);
+    for (uint b = 0; b < blocks; ++b) {
+      const float16 color = slot->columns[(RPF_FIRST_COLOR + c) * RPF_STRETCH + b];
+      ranges->smallest[c] = color < ranges->smallest[c] ? color : ranges->smallest[c];
+      ranges->largest[c] = color > ranges->largest[c] ? color : ranges->largest[c];
+    }
+}
+
+// Section 6: out[own][RPF_CARRIED].
+static void filter_samples(const Frame* frame, const rpf_pass* pass, const Slot* slot, const Means* means,
+                           const Trace* trace, __global float* out) {
+  const uint blocks = rpf_blocks(means->neighbors);
+  Ranges ranges;
+  for (int c = 0; c < RPF_CARRIED; ++c) {
+    ranges.smallest[c] = INFINITY;
+    ranges.largest[c] = -INFINITY;
+  }
+  for (uint i = 0; i < means->own * (1 + RPF_CARRIED); ++i) slot->sums[i] = 0.0f;
+  for (uint first = 0; first < blocks; first += RPF_STRETCH) {
+    const uint last = min(first + RPF_STRETCH, blocks);
+    fill_columns(frame, pass, slot, means, first, last);
+    widen(slot, last - first, &ranges);
+    add_stretch(frame, pass, slot, means, first, last, trace);
+  }
+  for (uint i = 0; i < means->own; ++i) {
+    __global const float16* sums = slot->sums + i * (1 + RPF_CARRIED);
+    for (int c = 0; c < RPF_CARRIED; ++c)
+      out[i * RPF_CARRIED + c] = rpf_filtered(lanes_total(sums[1 + c]), lanes_total(sums[0]),
+                                              smallest_lane(ranges.smallest[c]), largest_lane(ranges.largest[c]));
+  }
 }
 
 // Mean (relative to the shift) and standard deviation of one channel of a pixel's filtered samples.

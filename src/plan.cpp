@@ -135,6 +135,7 @@ Plan make_plan(const FrameFacts& facts, const Settings& settings) {
   plan.height = facts.height;
   plan.variables = facts.variables;
   plan.carried = facts.carried;
+  plan.most_samples = std::max(facts.max_samples_per_pixel, 1U);
   plan_rejection(plan, facts, settings);
   plan.seed = settings.seed;
   plan.attempts = static_cast<std::uint32_t>(settings.redraws) + 1;

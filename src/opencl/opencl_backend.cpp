@@ -62,7 +62,7 @@ Rows rows_read(const Plan& plan, int pass, const Window& tile) {
 OpenClBackend::OpenClBackend(const OpenClOptions& options)
     : session_(Session::of(find_device(options.device))),
       band_bytes_(options.band_bytes),
-      phases_(options.phases > 0 ? fmt::format(" -DRPF_PHASES={}", options.phases) : ""),
+      phases_(getenv("RPFPH") ? fmt::format(" -DRPF_PHASES={}", getenv("RPFPH")) : options.phases > 0 ? fmt::format(" -DRPF_PHASES={}", options.phases) : ""),
       items_(work_items(session_.device(), options.threads)) {}
 
 std::string OpenClBackend::description() const {
@@ -143,6 +143,7 @@ kernel::rpf_pass OpenClBackend::arguments(int pass, const Window& tile, const Ba
   a.block = static_cast<std::uint32_t>(plan_->statistics_block);
   a.measured = plan_->statistics_samples;
   a.capacity = scratch_->sizes.capacity;
+  a.most_samples = scratch_->sizes.most_samples;
   a.entropy_slack = plan_->entropy_slack;
   a.nats_per_unit = p.nats_per_unit;
   a.information_bias = plan_->information_bias;
@@ -164,9 +165,9 @@ void OpenClBackend::launch(int pass, const Window& tile, const Band& band, std::
                                  &minimum_tolerance_,
                                  &scratch_->candidates,
                                  &scratch_->neighbors,
-                                 &scratch_->columns,
                                  &scratch_->planes,
-                                 &scratch_->colors,
+                                 &scratch_->columns,
+                                 &scratch_->sums,
                                  &results.next_colors,
                                  &results.statistics,
                                  &results.trace_values,

@@ -6,29 +6,26 @@
 
 namespace rpf {
 
-ScratchSizes::ScratchSizes(const Plan& plan) {
-  std::uint32_t neighbors = 1;
-  for (const PassPlan& pass : plan.passes) neighbors = std::max(neighbors, pass.max_neighbors);
-  const std::uint32_t blocks = kernel::rpf_blocks(neighbors);
-  const std::size_t variables = plan.variables.count(), bins = 2 * static_cast<std::size_t>(plan.half_bins) + 1;
-  capacity = blocks * RPF_LANES;
-  column_floats = variables * capacity;
-  plane_words = variables * bins * ((blocks + 31) / 32 * RPF_LANES);
-  color_floats = plan.carried * capacity;
+ScratchSizes::ScratchSizes(const Plan& plan) : most_samples(plan.most_samples) {
+  for (const PassPlan& pass : plan.passes) capacity = std::max(capacity, pass.max_neighbors);
+  const std::size_t variables = plan.variables.count(), features = plan.variables.feature_names.size();
+  const auto bins = 2 * static_cast<kernel::uint>(plan.half_bins) + 1;
+  planes = variables * kernel::rpf_plane_words(capacity) * kernel::rpf_bin_vectors(bins);
+  columns = (3 + features + plan.carried + 1) * RPF_STRETCH;
+  sums = std::size_t{most_samples} * (1 + plan.carried);
 }
 
 std::uint64_t ScratchSizes::bytes() const {
-  constexpr std::uint64_t word = 4;
-  return word * (2 * std::uint64_t{capacity} + column_floats + plane_words + color_floats);
+  return word_bytes * (std::uint64_t{RPF_DRAWN_AT_ONCE} + capacity) + vector_bytes * (planes + columns + sums);
 }
 
 Scratch::Scratch(Session& session, const Plan& plan, std::size_t items) : sizes(plan) {
-  constexpr std::size_t word = 4;
-  candidates = session.buffer(items * sizes.capacity * word);
-  neighbors = session.buffer(items * sizes.capacity * word);
-  columns = session.buffer(items * sizes.column_floats * word);
-  planes = session.buffer(items * sizes.plane_words * word);
-  colors = session.buffer(items * sizes.color_floats * word);
+  constexpr std::size_t word_bytes = ScratchSizes::word_bytes, vector_bytes = ScratchSizes::vector_bytes;
+  candidates = session.buffer(items * RPF_DRAWN_AT_ONCE * word_bytes);
+  neighbors = session.buffer(items * sizes.capacity * word_bytes);
+  planes = session.buffer(items * sizes.planes * vector_bytes);
+  columns = session.buffer(items * sizes.columns * vector_bytes);
+  sums = session.buffer(items * sizes.sums * vector_bytes);
 }
 
 }  // namespace rpf

@@ -8,8 +8,11 @@ namespace rpf {
 
 /// Sizes of one work-item's scratch, in elements of the arrays of Slot in frame.cl.
 struct ScratchSizes {
-  std::uint32_t capacity = 0;  ///< neighbors, a multiple of RPF_LANES
-  std::size_t column_floats = 0, plane_words = 0, color_floats = 0;
+  static constexpr std::size_t word_bytes = 4, vector_bytes = 64;
+
+  std::uint32_t capacity = 1;      ///< neighbors
+  std::uint32_t most_samples = 1;  ///< own samples
+  std::size_t planes = 0, columns = 0, sums = 0;
 
   explicit ScratchSizes(const Plan& plan);
   std::uint64_t bytes() const;
@@ -17,7 +20,7 @@ struct ScratchSizes {
 
 struct Scratch {
   ScratchSizes sizes;
-  cl::Buffer candidates, neighbors, columns, planes, colors;
+  cl::Buffer candidates, neighbors, planes, columns, sums;
 
   Scratch(Session& session, const Plan& plan, std::size_t items);
 };

@@ -12,23 +12,6 @@ kernel::uint feature_count(const Plan& plan) { return static_cast<kernel::uint>(
 
 std::size_t bin_count(const Plan& plan) { return 2 * static_cast<std::size_t>(plan.half_bins) + 1; }
 
-/// Words of a plane and the bit of a neighbor in it, as statistics.cl lays them out.
-struct PlaneLayout {
-  std::uint32_t blocks = 0, words = 0;
-
-  explicit PlaneLayout(std::uint32_t neighbors)
-      : blocks(kernel::rpf_blocks(neighbors)), words(kernel::rpf_plane_words(neighbors)) {}
-  bool holds(const std::uint32_t* plane, std::uint32_t neighbor) const {
-    const std::uint32_t block = neighbor / RPF_LANES, lane = neighbor % RPF_LANES;
-    if (words >= RPF_LANES) return (plane[block / 32 * RPF_LANES + lane] >> block % 32 & 1U) != 0;
-    // Folded: the upper half of the lanes went behind the `blocks` bits of the lower half, and so on.
-    std::uint32_t bit = block, used = blocks;
-    for (std::uint32_t width = RPF_LANES / 2; width >= words; width /= 2, used *= 2)
-      bit += (lane & width) != 0 ? used : 0;
-    return (plane[lane % words] >> bit & 1U) != 0;
-  }
-};
-
 }  // namespace
 
 PixelTrace empty_trace(int pass, std::uint32_t pixel) {
@@ -49,7 +32,7 @@ TraceReader::TraceReader(Session& session, const Plan& plan, int pass, std::uint
   const std::size_t neighbors = std::max(plan.passes[static_cast<std::size_t>(pass)].max_neighbors, own);
   const std::size_t cells =
       kernel::rpf_pairs(random_count(plan), feature_count(plan)) * bin_count(plan) * bin_count(plan);
-  values_ = session.copy(std::vector<float>(at_.weights + own * neighbors, 0.0F));
+  values_ = session.copy(std::vector<float>(at_.weights + (own + plan.variables.count()) * neighbors, 0.0F));
   histograms_ = session.copy(std::vector<std::uint32_t>(cells, 0));
 }
 
@@ -57,32 +40,26 @@ std::vector<float> TraceReader::part(const std::vector<float>& values, std::uint
   return {values.begin() + at, values.begin() + at + static_cast<std::ptrdiff_t>(count)};
 }
 
-std::vector<float> TraceReader::normalized(const Scratch& scratch, std::uint32_t neighbors) {
-  const std::size_t variables = plan_.variables.count(), capacity = scratch.sizes.capacity;
-  const std::vector<float> columns = session_.read<float>(scratch.columns, 0, scratch.sizes.column_floats);
-  std::vector<float> rows(neighbors * variables);
-  for (std::size_t j = 0; j < neighbors; ++j)
-    for (std::size_t v = 0; v < variables; ++v) rows[j * variables + v] = columns[v * capacity + j];
-  return rows;
-}
-
 std::vector<std::uint8_t> TraceReader::bins(const Scratch& scratch, std::uint32_t neighbors) {
   constexpr std::uint8_t in_no_bin = 255;
   const std::size_t variables = plan_.variables.count(), count = bin_count(plan_);
-  const PlaneLayout layout(neighbors);
-  const auto planes = session_.read<std::uint32_t>(scratch.planes, 0, variables * count * layout.words);
+  const std::size_t words = kernel::rpf_plane_words(neighbors);
+  const std::size_t stride = kernel::rpf_bin_vectors(static_cast<kernel::uint>(count)) * RPF_BINS_AT_ONCE;
+  const auto planes = session_.read<std::uint64_t>(scratch.planes, 0, variables * words * stride);
   std::vector<std::uint8_t> bins(neighbors * variables, in_no_bin);
   for (std::uint32_t j = 0; j < neighbors; ++j)
-    for (std::size_t v = 0; v < variables; ++v)
+    for (std::size_t v = 0; v < variables; ++v) {
+      const std::uint64_t* bins_of_word = planes.data() + (v * words + j / RPF_WORD_BITS) * stride;
       for (std::size_t bin = 0; bin < count; ++bin)
-        if (layout.holds(planes.data() + (v * count + bin) * layout.words, j))
+        if ((bins_of_word[bin] >> kernel::rpf_plane_bit(j, static_cast<kernel::uint>(count)) & 1U) != 0)
           bins[j * variables + v] = static_cast<std::uint8_t>(bin);
+    }
   return bins;
 }
 
 PixelTrace TraceReader::read(const Scratch& scratch, std::uint32_t neighbors, std::vector<float> colors) {
   const std::size_t variables = plan_.variables.count(), features = feature_count(plan_);
-  const std::vector<float> values = session_.read<float>(values_, 0, at_.weights + std::size_t{own_} * neighbors);
+  const std::vector<float> values = session_.read<float>(values_, 0, at_.weights + (own_ + variables) * neighbors);
   PixelTrace t = empty_trace(pass_, pixel_);
   t.shift = part(values, at_.shift, variables);
   t.neighbors = session_.read<std::uint32_t>(scratch.neighbors, 0, neighbors);
@@ -91,7 +68,7 @@ PixelTrace TraceReader::read(const Scratch& scratch, std::uint32_t neighbors, st
   t.tolerance = part(values, at_.tolerance, features);
   t.mean = part(values, at_.mean, variables);
   t.inverse_deviation = part(values, at_.inverse_deviation, variables);
-  t.normalized = normalized(scratch, neighbors);
+  t.normalized = part(values, at_.weights + own_ * neighbors, variables * neighbors);
   t.bins = bins(scratch, static_cast<std::uint32_t>(values[at_.measured]));
   t.histograms = session_.read<std::uint32_t>(
       histograms_, 0,

@@ -25,7 +25,6 @@ class TraceReader {
 
  private:
   std::vector<float> part(const std::vector<float>& values, std::uint32_t at, std::size_t count) const;
-  std::vector<float> normalized(const Scratch& scratch, std::uint32_t neighbors);
   std::vector<std::uint8_t> bins(const Scratch& scratch, std::uint32_t neighbors);
 
   Session& session_;
