@@ -111,9 +111,10 @@ RPF_INLINE RPF_INT rpf_rejects(RPF_REAL value, RPF_REAL own_mean, RPF_REAL toler
 
 #define RPF_FLAT_SPREAD 1e-6f  // a smaller standard deviation, relative to the values, is 0
 
-// Mean 0, standard deviation 1. `value` and `mean` are relative to the same shift; a missing value becomes 0.
+// Mean 0, standard deviation 1. `value` and `mean` are relative to the same shift. What is missing stays missing here,
+// and counts as 0 from then on.
 RPF_INLINE RPF_REAL rpf_normalize(RPF_REAL value, RPF_REAL mean, RPF_REAL inverse_deviation) {
-  return rpf_is_missing(value) ? 0.0f : (value - mean) * inverse_deviation;
+  return (value - mean) * inverse_deviation;
 }
 
 // 1 / standard deviation, or 0 where the variable counts as constant. `largest`: largest magnitude of the unshifted
@@ -125,8 +126,8 @@ RPF_INLINE RPF_REAL rpf_inverse_deviation(RPF_REAL variance, RPF_REAL largest) {
 
 // ---- section 5: bins ------------------------------------------------------------------------------------------------
 
-// Bin of a normalized value less K, -K .. K: nearest integer, half away from zero, clamped to [-K, K]. What is added before
-// truncation is the largest number below 1/2: with 1/2 itself the largest number below 1/2 would round up to 1.
+// Bin of a normalized value less K, -K .. K: nearest integer, half away from zero, clamped to [-K, K]. What is added
+// before truncation is the largest number below 1/2: with 1/2 itself the largest number below 1/2 would round up to 1.
 RPF_INLINE RPF_INT rpf_signed_bin(RPF_REAL normalized, int half_bins) {
   const float limit = (float)half_bins, below_half = 0.49999997f;
   const RPF_REAL magnitude = fabs(normalized) < limit ? fabs(normalized) : limit;

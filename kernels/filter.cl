@@ -7,16 +7,18 @@
 #define RPF_PHASES 5
 #endif
 
-// PoCL compiles for the newest processor that its LLVM knows. Where the host has an instruction that counts bits in vectors
-// and says so (RPF_AVX512), all that a pixel takes is compiled for it, in a function of its own.
+// PoCL compiles for the newest processor that its LLVM knows. Where the host has an instruction that counts bits in
+// vectors and says so (RPF_AVX512), all that a pixel takes is compiled for it, in a function of its own.
 #ifdef RPF_AVX512
-#pragma clang attribute push(                                                                                     \
-    __attribute__((target("avx512vpopcntdq,avx512f,avx512bw,avx512cd,avx512dq,avx512vl,popcnt"))), apply_to = function)
+#pragma clang attribute push(                                                                      \
+    __attribute__((target("avx512vpopcntdq,avx512f,avx512bw,avx512cd,avx512dq,avx512vl,popcnt"))), \
+    apply_to = function)
 #endif
 
 #include "frame.cl"
 #include "neighborhood.cl"
 #include "transpose.cl"
+
 #include "statistics.cl"
 #include "weighting.cl"
 
@@ -41,8 +43,8 @@ static void trace_variables(const Trace* trace, uint at, const float16* values) 
   for (uint v = 0; v < RPF_VARIABLES; ++v) trace->values[at + v] = by_place[place_of(v)];
 }
 
-static void trace_neighborhood(const Frame* frame, const rpf_pass* pass, const OwnMoments* moments, uint own,
-                               uint neighbors, const Slot* slot, const Normalization* n, const Trace* trace) {
+static void trace_neighborhood(const rpf_pass* pass, const OwnMoments* moments, uint own, uint neighbors,
+                               const Slot* slot, const Normalization* n, const Trace* trace) {
   if (!trace->values) return;
   trace_moments(trace, moments);
   trace_variables(trace, trace->at.shift, n->shift);
@@ -50,7 +52,7 @@ static void trace_neighborhood(const Frame* frame, const rpf_pass* pass, const O
   trace_variables(trace, trace->at.inverse_deviation, n->inverse_deviation);
   for (uint j = 0; j < neighbors; ++j) {
     float16 values[RPF_CHUNKS];
-    for (int c = 0; c < RPF_CHUNKS; ++c) values[c] = normalized(frame, pass, slot, j, c, n);
+    for (int c = 0; c < RPF_CHUNKS; ++c) values[c] = normalized(pass, slot, j, c, n);
     trace_variables(trace, trace->at.weights + own * neighbors + j * RPF_VARIABLES, values);
   }
 }
@@ -89,17 +91,17 @@ static uint fill_neighborhood(const Frame* frame, const rpf_pass* pass, uint pix
   if (RPF_PHASES < 3) return neighbors;
   settle_shift(frame, pass, neighbors, slot, &moments);
   for (int c = 0; c < RPF_CHUNKS; ++c) n->shift[c] = moments.shift[c];
-  measure_moments(frame, pass, neighbors, slot, n);
-  trace_neighborhood(frame, pass, &moments, own, neighbors, slot, n, trace);
+  measure_moments(pass, neighbors, slot, n);
+  trace_neighborhood(pass, &moments, own, neighbors, slot, n, trace);
   return neighbors;
 }
 
 // Sections 6 and 7 for the pixel whose neighborhood is in the slot.
-static void filter_pixel(const Frame* frame, const rpf_pass* pass, uint own, uint neighbors, const Slot* slot,
-                         const Normalization* n, const Weights* weights, const Trace* trace, __global float* out) {
+static void filter_pixel(const rpf_pass* pass, uint own, uint neighbors, const Slot* slot, const Normalization* n,
+                         const Weights* weights, const Trace* trace, __global float* out) {
   Means means = {own, neighbors, n};
   choose_coordinates(pass, own, &weights->color, weights->beta, &means.coordinates);
-  filter_samples(frame, pass, slot, &means, trace, out);
+  filter_samples(pass, slot, &means, trace, out);
   for (uint i = 0; trace->values && i < own * RPF_CARRIED; ++i) trace->values[trace->at.filtered + i] = out[i];
   if (pass->outlier_step) replace_outliers(out, own);
 }
@@ -143,15 +145,15 @@ static void filter_member(const Frame* frame, const rpf_pass* pass, uint pixel, 
     statistics.alpha = rpf_mean(weights->color.alpha, 3);
     statistics.beta = rpf_mean(weights->beta, RPF_FEATURES);
     if (RPF_PHASES > 4)
-      filter_pixel(frame, pass, own, statistics.neighbors, slot, &n, weights, trace,
+      filter_pixel(pass, own, statistics.neighbors, slot, &n, weights, trace,
                    output->colors + (size_t)(first - pass->first_sample) * RPF_CARRIED);
   }
   output->statistics[pixel - pass->first_pixel] = statistics;
 }
 
 // The pixels of a block that lie in the tile.
-__attribute__((noinline)) static void filter_block(const Frame* frame, const rpf_pass* pass, Area block, Area tile, const Slot* slot,
-                         Trace* trace, const Output* output) {
+__attribute__((noinline)) static void filter_block(const Frame* frame, const rpf_pass* pass, Area block, Area tile,
+                                                   const Slot* slot, Trace* trace, const Output* output) {
   const uint leader = leader_of(frame, pass, block);
   const Area wanted = {max(block.x, tile.x), max(block.y, tile.y), min(block.end_x, tile.end_x),
                        min(block.end_y, tile.end_y)};
@@ -196,9 +198,9 @@ __kernel void lay_out_records(__global const float* records, __global const floa
 // Filters the pixels of a tile. `next_colors` [sample][RPF_CARRIED] and `statistics` [pixel] cover the band. Where
 // `trace_values` is not null the tile is one pixel.
 __kernel void filter_tile(__global const uint* first_sample, __global const float16* chunks,
-                          __global const char* offsets, __global const uint* draws,
-                          __global const int* entropy, __global const float* rejection_factor,
-                          __global const float* minimum_tolerance, __global uint* candidates, __global uint* neighbors,
+                          __global const char* offsets, __global const uint* draws, __global const int* entropy,
+                          __global const float* rejection_factor, __global const float* minimum_tolerance,
+                          __global uint* candidates, __global uint* neighbors, __global float16* records,
                           __global ulong8* planes, __global float16* columns, __global float16* sums,
                           __global float* next_colors, __global rpf_pixel_statistics* statistics,
                           __global float* trace_values, __global uint* trace_histograms, const rpf_pass pass) {
@@ -207,13 +209,17 @@ __kernel void filter_tile(__global const uint* first_sample, __global const floa
   trace.values = trace_values;
   trace.histograms = trace_histograms;
   const size_t item = get_global_id(0);
-  const Slot slot = {candidates + item * RPF_DRAWN_AT_ONCE, neighbors + item * pass.capacity,
+  const Slot slot = {candidates + item * RPF_DRAWN_AT_ONCE,
+                     neighbors + item * pass.capacity,
+                     records + item * RPF_CHUNKS * pass.capacity,
                      planes + item * RPF_VARIABLES * rpf_plane_words(pass.capacity) * RPF_BIN_VECTORS,
-                     columns + item * RPF_COLUMNS * RPF_STRETCH, sums + item * pass.most_samples * (1 + RPF_CARRIED)};
+                     columns + item * RPF_COLUMNS * RPF_STRETCH,
+                     sums + item * pass.most_samples * (1 + RPF_CARRIED)};
   const Output output = {next_colors, statistics};
   const Area tile = {pass.tile_x, pass.tile_y, pass.tile_x + pass.tile_width, pass.tile_y + pass.tile_height};
   const int side = (int)pass.block, first_x = tile.x / side, first_y = tile.y / side;
-  const uint across = (uint)((tile.end_x - 1) / side - first_x + 1), down = (uint)((tile.end_y - 1) / side - first_y + 1);
+  const uint across = (uint)((tile.end_x - 1) / side - first_x + 1),
+             down = (uint)((tile.end_y - 1) / side - first_y + 1);
   trace.at = rpf_lay_out_trace(RPF_RANDOM, RPF_FEATURES, RPF_CARRIED,
                                samples_of(&frame, &pass, (uint)(tile.y * pass.width + tile.x)));
   for (uint i = (uint)item; i < across * down; i += (uint)get_global_size(0)) {

@@ -10,18 +10,19 @@
 #define RPF_CHUNKS ((RPF_VARIABLES + RPF_CARRIED + RPF_LANES - 1) / RPF_LANES)  // vectors that hold a record and its c'
 #define RPF_FEATURE_CHUNKS ((RPF_FEATURES + RPF_LANES - 1) / RPF_LANES)
 #define RPF_REJECTING_CHUNKS ((RPF_REJECTING + RPF_LANES - 1) / RPF_LANES)
-#define RPF_POSITION 3                                            // first position coordinate of a record
+#define RPF_POSITION 3  // first position coordinate of a record
 #define RPF_FIRST_FEATURE (5 + RPF_RANDOM)
 #define RPF_PAIRS (3 * (2 + RPF_RANDOM + RPF_FEATURES) + RPF_FEATURES * (2 + RPF_RANDOM))  // rpf_pairs()
 #define RPF_HALF_BINS ((RPF_BINS - 1) / 2)
 #define RPF_BIN_VECTORS ((RPF_BINS + RPF_BINS_AT_ONCE - 1) / RPF_BINS_AT_ONCE)
-#define RPF_COLUMNS (3 + RPF_FEATURES + RPF_CARRIED + 1)  // coordinates of a distance, c', and one for what is not needed
+#define RPF_COLUMNS \
+  (3 + RPF_FEATURES + RPF_CARRIED + 1)  // coordinates of a distance, c', and one for what is not needed
 #define RPF_NO_SAMPLE 0xFFFFFFFFu
 
 #define RPF_LANE_NUMBERS ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 
-// The band of the frame that is on the device, and the tables of plan and pass. Pixels and samples keep the numbers that
-// they have in the whole frame.
+// The band of the frame that is on the device, and the tables of plan and pass. Pixels and samples keep the numbers
+// that they have in the whole frame.
 typedef struct {
   __global const uint* first_sample;        // [pixel + 1]
   __global const float16* chunks;           // [RPF_CHUNKS][sample] records, in the order of place_of(), and c'
@@ -33,19 +34,19 @@ typedef struct {
 } Frame;
 
 // On the device a record begins with its features, those that can reject it first: to test a candidate is to read one
-// cache line in most cases. Behind the variables stand the RPF_CARRIED values of c', so that what is averaged comes along.
+// cache line in most cases. Behind the variables stand the RPF_CARRIED values of c', so that what is averaged comes
+// along.
 static uint place_of(uint variable) {
   return variable < RPF_FIRST_FEATURE ? variable + RPF_FEATURES : variable - RPF_FIRST_FEATURE;
 }
 
-static uint variable_at(uint place) {
-  return place < RPF_FEATURES ? place + RPF_FIRST_FEATURE : place - RPF_FEATURES;
-}
+static uint variable_at(uint place) { return place < RPF_FEATURES ? place + RPF_FIRST_FEATURE : place - RPF_FEATURES; }
 
 // Scratch of a work-item. A stretch is what a weighted sum adds up before it is added to a total (numeric.h).
 typedef struct {
   __global uint* candidates;  // [RPF_DRAWN_AT_ONCE]
   __global uint* neighbors;   // [capacity]
+  __global float16* records;  // [RPF_CHUNKS][capacity] of the neighbors
   __global ulong8* planes;    // [RPF_VARIABLES][words][RPF_BIN_VECTORS] one bit a neighbor and bin (statistics.cl)
   __global float16* columns;  // [RPF_COLUMNS][RPF_STRETCH] a stretch of neighbors, RPF_LANES in a vector (weighting.cl)
   __global float16* sums;     // [own samples][1 + RPF_CARRIED] of weights and weighted colors

@@ -107,8 +107,8 @@ static uint16 attempt_draws(const Frame* frame, const rpf_pass* pass, rpf_words1
   return choose_samples(frame, pass, as_uint16(to_y) * (uint)pass->width + as_uint16(to_x), words.y, failed);
 }
 
-// Fills slot->candidates with draws begin .. end - 1; returns their number. RPF_LANES draws are made at once; those that
-// fail try again.
+// Fills slot->candidates with draws begin .. end - 1; returns their number. RPF_LANES draws are made at once; those
+// that fail try again.
 static uint draw_candidates(const Frame* frame, const rpf_pass* pass, uint pixel, uint begin, uint end,
                             const Slot* slot) {
   const rpf_words key = rpf_draw_key(pass->seed, pass->pass, pixel);
@@ -140,10 +140,31 @@ static uint draw_candidates(const Frame* frame, const rpf_pass* pass, uint pixel
   return count;
 }
 
-static void fetch(const Frame* frame, const rpf_pass* pass, uint candidates, const Slot* slot) {
-  for (uint i = 0; i < candidates; ++i)
-    for (int c = 0; c < RPF_CHUNKS; ++c)
-      __builtin_prefetch((const void*)(size_t)(frame->chunks + (size_t)c * pass->samples + (slot->candidates[i] - pass->first_sample)));
+// Asks for the records of the candidates: they lie all over the box, and all of them are needed soon.
+static void fetch_candidates(const Frame* frame, const rpf_pass* pass, uint candidates, const Slot* slot) {
+#ifdef RPF_AVX512
+  __global const uint* sample = slot->candidates;
+  const size_t stride = pass->samples;
+  for (uint i = 0; i < candidates; ++i) {
+    __global const float16* record = frame->chunks + (sample[i] - pass->first_sample);
+#pragma unroll
+    for (int c = 0; c < RPF_CHUNKS; ++c) __builtin_prefetch((const void*)(size_t)(record + c * stride));
+  }
+#endif
+}
+
+// Copies the records of neighbors begin .. end - 1, so that they lie side by side.
+static void copy_records(const Frame* frame, const rpf_pass* pass, uint begin, uint end, const Slot* slot) {
+  __global const uint* neighbors = slot->neighbors;
+  __global const float16* chunks = frame->chunks;
+  __global float16* records = slot->records;
+  const size_t stride = pass->samples, capacity = pass->capacity;
+  const uint first = pass->first_sample;
+  for (uint j = begin; j < end; ++j) {
+    const uint sample = neighbors[j] - first;
+#pragma unroll
+    for (int c = 0; c < RPF_CHUNKS; ++c) records[c * capacity + j] = chunks[c * stride + sample];
+  }
 }
 
 static int is_accepted(const Frame* frame, const rpf_pass* pass, uint sample, const OwnMoments* own) {
@@ -154,28 +175,31 @@ static int is_accepted(const Frame* frame, const rpf_pass* pass, uint sample, co
   return !any_lane(rejected);
 }
 
-// Appends the accepted candidates in their order to the `count` neighbors there are. Returns the new number.
+// Appends the accepted candidates in their order to the `before` neighbors there are. Returns the new number.
 static uint append_accepted(const Frame* frame, const rpf_pass* pass, const OwnMoments* moments, uint candidates,
-                            const Slot* slot, uint count) {
+                            const Slot* slot, uint before) {
+  uint count = before;
   for (uint i = 0; i < candidates; ++i) {
     const uint candidate = slot->candidates[i];
     slot->neighbors[count] = candidate;
     count += (uint)is_accepted(frame, pass, candidate, moments);
   }
+  copy_records(frame, pass, before, count, slot);
   return count;
 }
 
-// Fills slot->neighbors: the own samples, then the accepted candidates in the order of the draws. Returns N; `drawn`
-// becomes the number of candidates.
+// Fills slot->neighbors and slot->records: the own samples, then the accepted candidates in the order of the draws.
+// Returns N; `drawn` becomes the number of candidates.
 static uint gather(const Frame* frame, const rpf_pass* pass, uint pixel, uint first, uint own,
                    const OwnMoments* moments, const Slot* slot, uint* drawn) {
   const uint draws = frame->draws[own];
   for (uint i = 0; i < own; ++i) slot->neighbors[i] = first + i;
+  copy_records(frame, pass, 0, own, slot);
   uint count = own;
   *drawn = 0;
   for (uint begin = 0; begin < draws && count < pass->enough; begin += RPF_DRAWN_AT_ONCE) {
     const uint candidates = draw_candidates(frame, pass, pixel, begin, min(begin + RPF_DRAWN_AT_ONCE, draws), slot);
-    fetch(frame, pass, candidates, slot);
+    fetch_candidates(frame, pass, candidates, slot);
     if (RPF_PHASES > 1) count = append_accepted(frame, pass, moments, candidates, slot, count);
     *drawn += candidates;
   }

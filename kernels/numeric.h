@@ -1,5 +1,6 @@
 // The numeric contract: what every backend computes with, in the common subset of C++17 and OpenCL C 1.2.
-// (One thing more is asked of the OpenCL compiler: overloads, which every compiler that is built on clang has.)
+// (Two things more are asked of the OpenCL compiler, which every compiler that is built on clang has: overloads, and
+// __builtin_shufflevector.)
 //
 // The same text is compiled by the host compiler and by the OpenCL compiler, and the results are equal bit for bit:
 //  1. float, int and uint; values and private pointers only.

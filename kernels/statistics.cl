@@ -1,11 +1,10 @@
 // Sections 4 and 5: normalization, histograms and mutual information.
 //
-// Records are read where they are: a vector holds RPF_LANES variables of one neighbor, and what is summed over neighbors is
-// summed for all of them at once.
+// A vector holds RPF_LANES variables of one neighbor: what is summed over neighbors is summed for all of them at once.
 //
-// Histograms are counted in bit planes: for every variable and bin one bit a neighbor, so that a cell of a joint histogram is
-// popcount(plane of x & plane of y). Words have 64 neighbors; the words of all bins of a variable stand side by side, so that
-// one vector counts a row of a histogram. Which neighbor has which bit follows from how bins are packed (pack_bins).
+// Histograms are counted in bit planes: for every variable and bin one bit a neighbor, so that a cell of a joint
+// histogram is popcount(plane of x & plane of y). Words have 64 neighbors; the words of all bins of a variable stand
+// side by side, so that one vector counts a row of a histogram.
 
 // Section 4 of a neighborhood, by place. Places behind the last variable, c' among them, are left as they are: 0 and 1.
 typedef struct {
@@ -13,17 +12,16 @@ typedef struct {
 } Normalization;
 
 // Variables of neighbor j, less the shift.
-static float16 shifted(const Frame* frame, const rpf_pass* pass, const Slot* slot, uint j, int chunk, float16 shift) {
-  return load_chunk(frame, pass, slot->neighbors[j], chunk) - shift;
-}
-
-static float16 normalized(const Frame* frame, const rpf_pass* pass, const Slot* slot, uint j, int chunk,
-                          const Normalization* n) {
-  return rpf_normalize(shifted(frame, pass, slot, j, chunk, n->shift[chunk]), n->mean[chunk],
-                       n->inverse_deviation[chunk]);
+static float16 shifted(const rpf_pass* pass, const Slot* slot, uint j, int chunk, float16 shift) {
+  return slot->records[chunk * pass->capacity + j] - shift;
 }
 
 static float16 or_zero(float16 value) { return RPF_MISSING ? rpf_or_zero(value) : value; }
+
+static float16 normalized(const rpf_pass* pass, const Slot* slot, uint j, int chunk, const Normalization* n) {
+  const float16 value = shifted(pass, slot, j, chunk, n->shift[chunk]);
+  return or_zero(rpf_normalize(value, n->mean[chunk], n->inverse_deviation[chunk]));
+}
 
 // Sums over the neighbors, for RPF_LANES variables.
 typedef struct {
@@ -32,8 +30,8 @@ typedef struct {
   int16 missing;
 } RecordSums;
 
-static void sum_values(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot, int chunk,
-                       float16 shift, RecordSums* out) {
+static void sum_values(const rpf_pass* pass, uint neighbors, const Slot* slot, int chunk, float16 shift,
+                       RecordSums* out) {
   RecordSums sums;
   rpf_lanes_clear(&sums.values);
   sums.largest = 0.0f;
@@ -42,7 +40,7 @@ static void sum_values(const Frame* frame, const rpf_pass* pass, uint neighbors,
 #pragma unroll
     for (uint l = 0; l < RPF_LANES; ++l) {
       if (block + l >= neighbors) continue;
-      const float16 value = shifted(frame, pass, slot, block + l, chunk, shift), magnitude = fabs(value + shift);
+      const float16 value = shifted(pass, slot, block + l, chunk, shift), magnitude = fabs(value + shift);
       sums.largest = magnitude > sums.largest ? magnitude : sums.largest;
       sums.values.lane[l] += or_zero(value);
       if (RPF_MISSING) sums.missing += rpf_is_missing(value) ? 1 : 0;
@@ -51,15 +49,15 @@ static void sum_values(const Frame* frame, const rpf_pass* pass, uint neighbors,
   *out = sums;
 }
 
-static float16 sum_squares(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot, int chunk,
-                           float16 shift, float16 mean) {
+static float16 sum_squares(const rpf_pass* pass, uint neighbors, const Slot* slot, int chunk, float16 shift,
+                           float16 mean) {
   rpf_lanes16 sum;
   rpf_lanes_clear(&sum);
   for (uint block = 0; block < neighbors; block += RPF_LANES) {
 #pragma unroll
     for (uint l = 0; l < RPF_LANES; ++l) {
       if (block + l >= neighbors) continue;
-      const float16 off = shifted(frame, pass, slot, block + l, chunk, shift) - mean;
+      const float16 off = shifted(pass, slot, block + l, chunk, shift) - mean;
       sum.lane[l] += or_zero(off * off);
     }
   }
@@ -67,16 +65,16 @@ static float16 sum_squares(const Frame* frame, const rpf_pass* pass, uint neighb
 }
 
 // Section 4, but for the normalized values themselves: they are computed where they are needed. `shift` is set.
-static void measure_moments(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot,
-                            Normalization* n) {
+static void measure_moments(const rpf_pass* pass, uint neighbors, const Slot* slot, Normalization* n) {
+#pragma unroll
   for (int c = 0; c < RPF_CHUNKS; ++c) {
     const int16 is_variable = RPF_LANE_NUMBERS < RPF_VARIABLES - RPF_LANES * c;
     RecordSums sums;
-    sum_values(frame, pass, neighbors, slot, c, n->shift[c], &sums);
+    sum_values(pass, neighbors, slot, c, n->shift[c], &sums);
     const int16 present = (int)neighbors - sums.missing;
     const float16 count = convert_float16(present);
     const float16 mean = present == 0 ? 0.0f : rpf_lanes_total(&sums.values) / count;
-    const float16 squares = sum_squares(frame, pass, neighbors, slot, c, n->shift[c], mean);
+    const float16 squares = sum_squares(pass, neighbors, slot, c, n->shift[c], mean);
     const float16 inverse = present == 0 ? 0.0f : rpf_inverse_deviation(squares / count, sums.largest);
     n->mean[c] = is_variable ? mean : 0.0f;
     n->inverse_deviation[c] = is_variable ? inverse : 1.0f;
@@ -84,19 +82,20 @@ static void measure_moments(const Frame* frame, const rpf_pass* pass, uint neigh
 }
 
 // The bins of some neighbors go into one word each, a field a neighbor, then bit i of all fields into plane i.
-#define RPF_FIELD_BITS (RPF_BINS > 15 ? 8 : 4)
+// (rpf_plane_bit says which bit a neighbor has in the end.)
+#define RPF_FIELD_BITS (RPF_BINS > 15 ? 8 : 4)  // rpf_bin_field(): shifts are constants where this is
 #define RPF_FIELDS (32 / RPF_FIELD_BITS)
 #define RPF_BIN_BITS (RPF_BINS > 15 ? 5 : RPF_BINS > 7 ? 4 : RPF_BINS > 3 ? 3 : 2)
 #define RPF_EACH_FIELD (RPF_BINS > 15 ? 0x01010101u : 0x11111111u)
 
 // The bins of neighbors begin .. end - 1, RPF_FIELDS at most, for RPF_LANES variables.
-static uint16 pack_bins(const Frame* frame, const rpf_pass* pass, uint begin, uint end, const Slot* slot, int chunk,
+static uint16 pack_bins(const rpf_pass* pass, uint begin, uint end, const Slot* slot, int chunk,
                         const Normalization* n) {
   int16 fields = 0;
 #pragma unroll
   for (uint i = 0; i < RPF_FIELDS; ++i) {
     if (begin + i >= end) break;
-    const float16 value = normalized(frame, pass, slot, begin + i, chunk, n);
+    const float16 value = normalized(pass, slot, begin + i, chunk, n);
     fields += rpf_signed_bin(value, RPF_HALF_BINS) * (1 << (RPF_FIELD_BITS * i));
   }
   return as_uint16(fields) + RPF_EACH_FIELD * RPF_HALF_BINS;
@@ -110,16 +109,15 @@ static uint16 plane_of(const uint16* number, int bin, uint16 is_neighbor) {
   return plane;
 }
 
-// Bit planes of RPF_LANES variables, of up to 32 neighbors: [bin], a variable a lane. Field i of word k becomes bit
-// RPF_FIELD_BITS i + k.
-static void fill_half_words(const Frame* frame, const rpf_pass* pass, uint begin, uint end, const Slot* slot, int chunk,
-                            const Normalization* n, uint16* planes) {
+// Bit planes of RPF_LANES variables, of up to 32 neighbors: [bin], a variable a lane.
+__attribute__((always_inline)) static void fill_half_words(const rpf_pass* pass, uint begin, uint end, const Slot* slot,
+                                                           int chunk, const Normalization* n, uint16* planes) {
   uint16 number[RPF_BIN_BITS];
   uint is_neighbor = 0;
 #pragma unroll
   for (int i = 0; i < RPF_BIN_BITS; ++i) number[i] = 0;
   for (uint k = 0; k < RPF_FIELD_BITS && begin < end; ++k, begin += RPF_FIELDS) {
-    const uint16 bins = pack_bins(frame, pass, begin, end, slot, chunk, n);
+    const uint16 bins = pack_bins(pass, begin, end, slot, chunk, n);
     const uint fields = min(end - begin, (uint)RPF_FIELDS);
     is_neighbor |= (RPF_EACH_FIELD >> (32 - RPF_FIELD_BITS * fields)) << k;
 #pragma unroll
@@ -129,33 +127,40 @@ static void fill_half_words(const Frame* frame, const rpf_pass* pass, uint begin
   for (int bin = 0; bin < RPF_BINS; ++bin) planes[bin] = plane_of(number, bin, is_neighbor);
 }
 
+// Word `word` of the planes of RPF_LANES variables, from both halves of it: [half][bin], a variable a lane.
+static void store_words(uint16 (*halves)[RPF_BIN_VECTORS * RPF_BINS_AT_ONCE], int chunk, uint word, uint words,
+                        const Slot* slot) {
+#pragma unroll
+  for (int v = 0; v < RPF_BIN_VECTORS; ++v) {
+    float16 rows[RPF_LANES];
+#pragma unroll
+    for (int bin = 0; bin < RPF_BINS_AT_ONCE; ++bin) {
+      rows[2 * bin] = as_float16(halves[0][v * RPF_BINS_AT_ONCE + bin]);
+      rows[2 * bin + 1] = as_float16(halves[1][v * RPF_BINS_AT_ONCE + bin]);
+    }
+    transpose(rows);
+#pragma unroll
+    for (int l = 0; l < RPF_LANES; ++l) {
+      const uint place = (uint)(RPF_LANES * chunk + l);
+      if (place < RPF_VARIABLES)
+        slot->planes[(variable_at(place) * words + word) * RPF_BIN_VECTORS + v] = as_ulong8(rows[l]);
+    }
+  }
+}
+
 // The bit planes of all variables.
-static void fill_planes(const Frame* frame, const rpf_pass* pass, uint neighbors, uint words, const Slot* slot,
-                        const Normalization* n) {
+static void fill_planes(const rpf_pass* pass, uint neighbors, uint words, const Slot* slot, const Normalization* n) {
+#pragma unroll
   for (int chunk = 0; chunk * RPF_LANES < RPF_VARIABLES; ++chunk)
     for (uint word = 0; word < words; ++word) {
       const uint begin = word * RPF_WORD_BITS, middle = min(begin + RPF_WORD_BITS / 2, neighbors);
+      const uint end = min(begin + RPF_WORD_BITS, neighbors);
       uint16 halves[2][RPF_BIN_VECTORS * RPF_BINS_AT_ONCE];
 #pragma unroll
       for (int bin = RPF_BINS; bin < RPF_BIN_VECTORS * RPF_BINS_AT_ONCE; ++bin) halves[0][bin] = halves[1][bin] = 0;
-      fill_half_words(frame, pass, begin, middle, slot, chunk, n, halves[0]);
-      fill_half_words(frame, pass, middle, min(begin + RPF_WORD_BITS, neighbors), slot, chunk, n, halves[1]);
-#pragma unroll
-      for (int v = 0; v < RPF_BIN_VECTORS; ++v) {
-        float16 rows[RPF_LANES];
-#pragma unroll
-        for (int bin = 0; bin < RPF_BINS_AT_ONCE; ++bin) {
-          rows[2 * bin] = as_float16(halves[0][v * RPF_BINS_AT_ONCE + bin]);
-          rows[2 * bin + 1] = as_float16(halves[1][v * RPF_BINS_AT_ONCE + bin]);
-        }
-        transpose(rows);
-#pragma unroll
-        for (int l = 0; l < RPF_LANES; ++l) {
-          const uint place = (uint)(RPF_LANES * chunk + l);
-          if (place < RPF_VARIABLES)
-            slot->planes[(variable_at(place) * words + word) * RPF_BIN_VECTORS + v] = as_ulong8(rows[l]);
-        }
-      }
+      fill_half_words(pass, begin, middle, slot, chunk, n, halves[0]);
+      fill_half_words(pass, middle, end, slot, chunk, n, halves[1]);
+      store_words(halves, chunk, word, words, slot);
     }
 }
 
@@ -175,16 +180,17 @@ typedef struct {
   uchar bin[RPF_BINS];
 } Margin;
 
+static void store_row(const uint8* row, uint* count) {
+#pragma unroll
+  for (int v = 0; v < RPF_BIN_VECTORS; ++v) vstore8(row[v], v, count);
+}
+
 // Sum of S h log2 h over a row of a histogram.
 static uint entropy_of(__global const int* entropy, const uint8* row) {
-  uint units = 0;
+  uint units = 0, count[RPF_BIN_VECTORS * RPF_BINS_AT_ONCE];
+  store_row(row, count);
 #pragma unroll
-  for (int v = 0; v < RPF_BIN_VECTORS; ++v) {
-    uint count[RPF_BINS_AT_ONCE];
-    vstore8(row[v], 0, count);
-#pragma unroll
-    for (int b = 0; b < min(RPF_BINS - v * RPF_BINS_AT_ONCE, RPF_BINS_AT_ONCE); ++b) units += (uint)entropy[count[b]];
-  }
+  for (int bin = 0; bin < RPF_BINS; ++bin) units += (uint)entropy[count[bin]];
   return units;
 }
 
@@ -196,8 +202,8 @@ static void count_margin(__global const ulong8* planes, uint words, Margin* out)
     sum[v] = 0;
     for (uint w = 0; w < words; ++w) sum[v] += count_bits(planes[w * RPF_BIN_VECTORS + v]);
     out->count[v] = convert_uint8(sum[v]);
-    vstore8(out->count[v], v, count);
   }
+  store_row(out->count, count);
   out->kinds = 0;
   for (int bin = 0; bin < RPF_BINS; ++bin) {
     out->bin[out->kinds] = (uchar)bin;
@@ -213,15 +219,16 @@ static void count_margin(__global const ulong8* planes, uint words, Margin* out)
 static void count_rows(__global const ulong8* planes_x, const uchar* bins, __global const ulong8* planes_y, uint words,
                        uint8 (*rows)[RPF_BIN_VECTORS]) {
   __global const ulong* x = (__global const ulong*)planes_x;
-  const uint bin0 = bins[0], bin1 = bins[1], bin2 = bins[2], stride = RPF_BIN_VECTORS * RPF_BINS_AT_ONCE;
+  __global const ulong *x0 = x + bins[0], *x1 = x + bins[1], *x2 = x + bins[2];
+  const size_t stride = RPF_BIN_VECTORS * RPF_BINS_AT_ONCE, end = words;
 #pragma unroll
   for (int v = 0; v < RPF_BIN_VECTORS; ++v) {
     ulong8 count0 = 0, count1 = 0, count2 = 0;
-    for (uint w = 0; w < words; ++w) {
+    for (size_t w = 0; w < end; ++w) {
       const ulong8 y = planes_y[w * RPF_BIN_VECTORS + v];
-      count0 += count_bits(y & x[w * stride + bin0]);
-      count1 += count_bits(y & x[w * stride + bin1]);
-      count2 += count_bits(y & x[w * stride + bin2]);
+      count0 += count_bits(y & x0[w * stride]);
+      count1 += count_bits(y & x1[w * stride]);
+      count2 += count_bits(y & x2[w * stride]);
     }
     rows[0][v] = convert_uint8(count0);
     rows[1][v] = convert_uint8(count1);
@@ -232,7 +239,7 @@ static void count_rows(__global const ulong8* planes_x, const uchar* bins, __glo
 static void trace_row(const Trace* trace, uint pair, uint bin, const uint8* row) {
   if (!trace->values) return;
   uint count[RPF_BIN_VECTORS * RPF_BINS_AT_ONCE];
-  for (int v = 0; v < RPF_BIN_VECTORS; ++v) vstore8(row[v], v, count);
+  store_row(row, count);
   for (int b = 0; b < RPF_BINS; ++b) trace->histograms[(pair * RPF_BINS + bin) * RPF_BINS + b] = count[b];
 }
 
@@ -270,7 +277,7 @@ static void measure_dependencies(const Frame* frame, const rpf_pass* pass, uint 
   const uint words = rpf_plane_words(neighbors), variable_planes = words * RPF_BIN_VECTORS;
   Margin margin[RPF_VARIABLES];
   uint units[RPF_VARIABLES];
-  fill_planes(frame, pass, neighbors, words, slot, n);
+  fill_planes(pass, neighbors, words, slot, n);
   for (uint v = 0; v < RPF_VARIABLES; ++v) {
     count_margin(slot->planes + v * variable_planes, words, &margin[v]);
     units[v] = entropy_of(frame->entropy, margin[v].count);
@@ -282,9 +289,8 @@ static void measure_dependencies(const Frame* frame, const rpf_pass* pass, uint 
     for (uint y = RPF_POSITION; y < end; ++y, ++pair) {
       const uint joint = joint_entropy(frame->entropy, slot->planes + x * variable_planes, &margin[x],
                                        slot->planes + y * variable_planes, &margin[y], words, trace, pair);
-      information[pair] =
-          rpf_mutual_information((int)(joint - units[x] - units[y] + all), pass->entropy_slack, pass->nats_per_unit,
-                                 pass->information_bias, (float)neighbors);
+      information[pair] = rpf_mutual_information((int)(joint - units[x] - units[y] + all), pass->entropy_slack,
+                                                 pass->nats_per_unit, pass->information_bias, (float)neighbors);
     }
   }
 }

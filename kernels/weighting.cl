@@ -8,7 +8,7 @@ typedef struct {
   uint count;
   ushort place[3 + RPF_FEATURES];
   ushort column_of[RPF_CHUNKS * RPF_LANES];  // by place
-  float16 scale[RPF_CHUNKS];                // by place; c' is left as it is
+  float16 scale[RPF_CHUNKS];                 // by place; c' is left as it is
 } Coordinates;
 
 #define RPF_FIRST_COLOR (3 + RPF_FEATURES)  // first column of c'
@@ -62,18 +62,18 @@ typedef struct {
   Coordinates coordinates;
 } Means;
 
-// A stretch of neighbors, from block `first` on, as columns: the scaled coordinates and c'. Behind the last neighbor the first one
-// is repeated: it gets no weight, and its color is inside every range.
-static void fill_columns(const Frame* frame, const rpf_pass* pass, const Slot* slot, const Means* means, uint first,
-                         uint last) {
+// A stretch of neighbors, from block `first` on, as columns: the scaled coordinates and c'. Behind the last neighbor
+// the first one is repeated: it gets no weight, and its color is inside every range.
+static void fill_columns(const rpf_pass* pass, const Slot* slot, const Means* means, uint first, uint last) {
   for (uint block = first; block < last; ++block)
+#pragma unroll
     for (int c = 0; c < RPF_CHUNKS; ++c) {
       float16 rows[RPF_LANES];
 #pragma unroll
       for (uint l = 0; l < RPF_LANES; ++l) {
         const uint j = block * RPF_LANES + l;
-        rows[l] = normalized(frame, pass, slot, j < means->neighbors ? j : 0, c, means->normalization) *
-                  means->coordinates.scale[c];
+        rows[l] =
+            normalized(pass, slot, j < means->neighbors ? j : 0, c, means->normalization) * means->coordinates.scale[c];
       }
       transpose(rows);
 #pragma unroll
@@ -83,14 +83,14 @@ static void fill_columns(const Frame* frame, const rpf_pass* pass, const Slot* s
 }
 
 // The scaled coordinates of a batch of own samples. Behind the last own sample that one is repeated.
-static void load_own(const Frame* frame, const rpf_pass* pass, const Slot* slot, const Means* means, uint begin,
+static void load_own(const rpf_pass* pass, const Slot* slot, const Means* means, uint begin,
                      float (*own)[3 + RPF_FEATURES]) {
   for (uint i = 0; i < RPF_BATCH; ++i) {
     float values[RPF_CHUNKS * RPF_LANES];
     for (int c = 0; c < RPF_CHUNKS; ++c)
-      vstore16(normalized(frame, pass, slot, min(begin + i, means->own - 1), c, means->normalization) *
-                   means->coordinates.scale[c],
-               c, values);
+      vstore16(
+          normalized(pass, slot, min(begin + i, means->own - 1), c, means->normalization) * means->coordinates.scale[c],
+          c, values);
     for (uint a = 0; a < means->coordinates.count; ++a) own[i][a] = values[means->coordinates.place[a]];
   }
 }
@@ -137,7 +137,8 @@ static void sum_stretch(const Slot* slot, const Means* means, float (*own)[3 + R
   }
   for (uint block = first; block < last; ++block) {
     float16 weight[RPF_BATCH];
-    block_weights(slot, means->coordinates.count, own, block - first, (int)(means->neighbors - block * RPF_LANES), weight);
+    block_weights(slot, means->coordinates.count, own, block - first, (int)(means->neighbors - block * RPF_LANES),
+                  weight);
 #pragma unroll
     for (int i = 0; i < RPF_BATCH; ++i) {
       sums->weight[i] += weight[i];
@@ -149,12 +150,12 @@ static void sum_stretch(const Slot* slot, const Means* means, float (*own)[3 + R
 }
 
 // Adds a stretch to the sums of all own samples.
-static void add_stretch(const Frame* frame, const rpf_pass* pass, const Slot* slot, const Means* means, uint first,
-                        uint last, const Trace* trace) {
+static void add_stretch(const rpf_pass* pass, const Slot* slot, const Means* means, uint first, uint last,
+                        const Trace* trace) {
   for (uint begin = 0; begin < means->own; begin += RPF_BATCH) {
     float own[RPF_BATCH][3 + RPF_FEATURES];
     Sums stretch;
-    load_own(frame, pass, slot, means, begin, own);
+    load_own(pass, slot, means, begin, own);
     sum_stretch(slot, means, own, begin, first, last, trace, &stretch);
 #pragma unroll
     for (uint i = 0; i < RPF_BATCH; ++i) {
@@ -181,8 +182,8 @@ static void widen(const Slot* slot, uint blocks, Ranges* ranges) {
 }
 
 // Section 6: out[own][RPF_CARRIED].
-static void filter_samples(const Frame* frame, const rpf_pass* pass, const Slot* slot, const Means* means,
-                           const Trace* trace, __global float* out) {
+static void filter_samples(const rpf_pass* pass, const Slot* slot, const Means* means, const Trace* trace,
+                           __global float* out) {
   const uint blocks = rpf_blocks(means->neighbors);
   Ranges ranges;
   for (int c = 0; c < RPF_CARRIED; ++c) {
@@ -192,9 +193,9 @@ static void filter_samples(const Frame* frame, const rpf_pass* pass, const Slot*
   for (uint i = 0; i < means->own * (1 + RPF_CARRIED); ++i) slot->sums[i] = 0.0f;
   for (uint first = 0; first < blocks; first += RPF_STRETCH) {
     const uint last = min(first + RPF_STRETCH, blocks);
-    fill_columns(frame, pass, slot, means, first, last);
+    fill_columns(pass, slot, means, first, last);
     widen(slot, last - first, &ranges);
-    add_stretch(frame, pass, slot, means, first, last, trace);
+    add_stretch(pass, slot, means, first, last, trace);
   }
   for (uint i = 0; i < means->own; ++i) {
     __global const float16* sums = slot->sums + i * (1 + RPF_CARRIED);

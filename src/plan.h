@@ -53,7 +53,7 @@ struct Plan {
   std::vector<float> rejection_factor;   ///< [feature] H
   std::vector<float> minimum_tolerance;  ///< [feature] a; infinity: takes no part in the rejection test
   std::size_t rejecting = 0;             ///< features up to the last one that takes part in the rejection test
-  std::uint32_t most_samples = 1;  ///< of a pixel
+  std::uint32_t most_samples = 1;        ///< of a pixel
   std::size_t carried = 3;  ///< values a sample that are averaged: color, then alpha and features on request
 
   std::uint32_t seed = 1;

@@ -102,7 +102,7 @@ void normalize(Neighborhood& n, Normalization& out) {
   for (std::uint32_t j = 0; j < n.size(); ++j) {
     float* row = n.rows.data() + j * variables;
     for (std::size_t v = 0; v < variables; ++v)
-      row[v] = kernel::rpf_normalize(row[v], out.mean[v], out.inverse_deviation[v]);
+      row[v] = kernel::rpf_or_zero(kernel::rpf_normalize(row[v], out.mean[v], out.inverse_deviation[v]));
   }
 }
 

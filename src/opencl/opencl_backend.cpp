@@ -62,7 +62,7 @@ Rows rows_read(const Plan& plan, int pass, const Window& tile) {
 OpenClBackend::OpenClBackend(const OpenClOptions& options)
     : session_(Session::of(find_device(options.device))),
       band_bytes_(options.band_bytes),
-      phases_(getenv("RPFPH") ? fmt::format(" -DRPF_PHASES={}", getenv("RPFPH")) : options.phases > 0 ? fmt::format(" -DRPF_PHASES={}", options.phases) : ""),
+      phases_(options.phases > 0 ? fmt::format(" -DRPF_PHASES={}", options.phases) : ""),
       items_(work_items(session_.device(), options.threads)) {}
 
 std::string OpenClBackend::description() const {
@@ -165,6 +165,7 @@ void OpenClBackend::launch(int pass, const Window& tile, const Band& band, std::
                                  &minimum_tolerance_,
                                  &scratch_->candidates,
                                  &scratch_->neighbors,
+                                 &scratch_->records,
                                  &scratch_->planes,
                                  &scratch_->columns,
                                  &scratch_->sums,

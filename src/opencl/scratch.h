@@ -12,7 +12,7 @@ struct ScratchSizes {
 
   std::uint32_t capacity = 1;      ///< neighbors
   std::uint32_t most_samples = 1;  ///< own samples
-  std::size_t planes = 0, columns = 0, sums = 0;
+  std::size_t records = 0, planes = 0, columns = 0, sums = 0;
 
   explicit ScratchSizes(const Plan& plan);
   std::uint64_t bytes() const;
@@ -20,7 +20,7 @@ struct ScratchSizes {
 
 struct Scratch {
   ScratchSizes sizes;
-  cl::Buffer candidates, neighbors, planes, columns, sums;
+  cl::Buffer candidates, neighbors, records, planes, columns, sums;
 
   Scratch(Session& session, const Plan& plan, std::size_t items);
 };

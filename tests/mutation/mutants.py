@@ -126,7 +126,7 @@ MUTANTS = [
            "oracle missing_values own_mean", "rejection: missing values count"),
     Mutant("position_scale_ignored", PLAN, "facts.position_diagonal / settings.position_scale", "facts.position_diagonal",
            "Plan.HasToleranceAndFactorOfEveryFeature", "rejection: a of positions"),
-    Mutant("second_hit_rejects", PLAN, "settings.reject_second_hit || !is_second_hit(group(name))", "settings.reject_second_hit || !name.empty()",
+    Mutant("second_hit_rejects", PLAN, "settings.reject_second_hit || !is_second_hit(group_of_variable(name))", "settings.reject_second_hit || !name.empty()",
            "oracle second_hit_keep tolerance", "rejection: second hits take part"),
 
     # ---------------------------------------------------------------- 4. normalization
@@ -136,20 +136,20 @@ MUTANTS = [
            "oracle world_offset std", "normalization: large world positions"),
     Mutant("missing_as_zero", STATISTICS, "out.count[v] += missing ? 0 : 1;", "out.count[v] += 1;",
            "oracle missing_values mean", "normalization: missing values count"),
-    Mutant("missing_normalized", ELEMENTWISE, "return rpf_is_missing(value) ? 0.0f : (value - mean)", "return (value - mean)",
+    Mutant("missing_normalized", STATISTICS, "kernel::rpf_or_zero(kernel::rpf_normalize(row[v], out.mean[v], out.inverse_deviation[v]))",
+           "kernel::rpf_normalize(row[v], out.mean[v], out.inverse_deviation[v])",
            "Normalize.LeavesMissingValuesOutAndAtZero", "normalization: missing values stay"),
     Mutant("deviation_n_1", STATISTICS, "static_cast<float>(out.count[v]), out.largest[v]", "static_cast<float>(out.count[v] - 1), out.largest[v]",
            "Normalize.LeavesMissingValuesOutAndAtZero", "normalization: n - 1"),
-    Mutant("flat_threshold", MATH, "RPF_FLAT_SPREAD 1e-6f", "RPF_FLAT_SPREAD 1e-8f",
+    Mutant("flat_threshold", ELEMENTWISE, "RPF_FLAT_SPREAD 1e-6f", "RPF_FLAT_SPREAD 1e-8f",
            "Normalization.TreatsTinySpreadAsConstant", "normalization: rounding noise is stretched"),
     Mutant("mean_kept", ELEMENTWISE, "(value - mean) * inverse_deviation", "value * inverse_deviation",
            "oracle spp4_thesis normalized", "normalization: mean is not 0"),
 
     # ---------------------------------------------------------------- 5. mutual information and weights
-    Mutant("bin_half_to_even", ELEMENTWISE, "magnitude - RPF_TO_REAL(whole) >= 0.5f",
-           "magnitude - (float)whole > 0.5f || (magnitude - (float)whole == 0.5f && whole % 2 == 1)",
-           "Bin.RoundsHalfAwayFromZeroAndClamps", "bins: half to even"),
-    Mutant("bin_truncation", ELEMENTWISE, "? whole + 1 : whole;", "? whole : whole;",
+    Mutant("bin_half_down", ELEMENTWISE, "below_half = 0.49999997f", "below_half = 0.49999994f",
+           "Bin.RoundsHalfAwayFromZeroAndClamps", "bins: half towards 0"),
+    Mutant("bin_truncation", ELEMENTWISE, "RPF_TO_INT(magnitude + below_half)", "RPF_TO_INT(magnitude)",
            "oracle spp4_thesis bins", "bins: truncation"),
     Mutant("bin_clamp", ELEMENTWISE, "fabs(normalized) < limit ? fabs(normalized) : limit", "fabs(normalized)",
            "Bin.RoundsHalfAwayFromZeroAndClamps", "bins: a firefly leaves the histogram"),
@@ -197,8 +197,8 @@ MUTANTS = [
            BOTH + "KeepsAConstantImageExactly/*", "filter: rounding leaves the convex hull"),
     Mutant("hull_largest", MATH, "return mean > largest ? largest : mean;", "return mean;",
            "Filtered.CannotLeaveTheHull", "filter: rounding leaves the convex hull"),
-    Mutant("colors_not_carried", BACKEND, "Workspace& w = workspaces.local();",
-           "Workspace& w = workspaces.local();\n"
+    Mutant("colors_not_carried", BACKEND, "  for (const std::uint32_t pixel : pixels) {\n    if (frame_->samples(pixel) == 0) continue;",
+           "  for (const std::uint32_t pixel : pixels) {\n    if (frame_->samples(pixel) == 0) continue;\n"
            "std::vector<float> colors_;\n"
            "for (std::size_t s = 0; s < frame_->sample_count(); ++s)\n"
            "  colors_.insert(colors_.end(), frame_->record(s), frame_->record(s) + 3);",
@@ -277,9 +277,9 @@ MUTANTS = [
            "oracle sample_weight image", "pixel mean: 0 / 0 where no sample has a weight"),
     Mutant("empty_pixel", RESOLVE, "if (frame.samples(pixel) > 0) mean_of_samples", "if (colors.size() > 0) mean_of_samples",
            "oracle spp_varying_thesis image", "pixel mean: 0 / 0 without samples"),
-    Mutant("tile_origin", BACKEND, "static_cast<std::size_t>(tile.x) + i % width", "i % width",
+    Mutant("tile_origin", BACKEND, "(first_x + i % across) * side", "(i % across) * side",
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "tiles: tile-relative pixel"),
-    Mutant("last_tile_lost", DRIVER, "for (int y = 0; y < region.height; y += height)", "for (int y = 0; y + height <= region.height; y += height)",
+    Mutant("last_tile_lost", DRIVER, "y < end_y; y += height)", "y + height <= end_y; y += height)",
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "tiles: the last band is skipped"),
     Mutant("crop_margin", PLAN, "(pass->box_width - 1) / 2", "(pass->box_width - 1) / 2 - 1",
            BOTH + "GivesTheSamePixelsForACrop/*", "crop: margin one pixel short"),

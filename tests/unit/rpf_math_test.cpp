@@ -33,7 +33,7 @@ TEST(Normalization, TreatsTinySpreadAsConstant) {
   EXPECT_EQ(rpf_inverse_deviation(0.0F, 0.0F), 0.0F);
   EXPECT_EQ(rpf_inverse_deviation(1e-14F, 1.0F), 0.0F);
   EXPECT_GT(rpf_inverse_deviation(1e-10F, 1.0F), 0.0F);
-  EXPECT_EQ(rpf_normalize(missing, 1.0F, 2.0F), 0.0F);
+  EXPECT_TRUE(rpf_is_missing(rpf_normalize(missing, 1.0F, 2.0F)));
   EXPECT_EQ(rpf_normalize(5.0F, 1.0F, 0.5F), 2.0F);
 }
 
