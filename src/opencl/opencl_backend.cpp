@@ -78,6 +78,7 @@ void OpenClBackend::load(const Frame& frame, std::vector<float> colors, const Pl
   band_.reset();
   tables_.clear();
   if (plan.passes.empty()) return;
+  if (plan.method != Method::rpf) throw Error(ErrorKind::usage, "this method runs with --backend=cpu only");
   on_device("preparing the filter", [&] {
     const cl::Program& program = session_.program("filter.cl", definitions(frame, plan) + phases_);
     kernel_ = cl::Kernel(program, "filter_tile");
