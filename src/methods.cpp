@@ -23,7 +23,8 @@ Settings settings_of(Method method) {
   Settings s;
   s.method = method;
   if (method == Method::rpf) return s;
-  s.box_widths = {method == Method::cross_bilateral ? 11 : 7};
+  s.box_widths = {method == Method::cross_bilateral ? 9 : 5};
+  s.features = std::vector<std::string>{"first"};
   return s;
 }
 

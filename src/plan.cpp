@@ -126,7 +126,7 @@ void validate(const Settings& s) {
           fmt::format("position scale {}: a number from 1e-6 to 1e6 is expected", s.position_scale));
   require(s.redraws >= 0 && s.redraws <= 15, fmt::format("redraws {}: a number from 0 to 15 is expected", s.redraws));
   require(s.sigma_color >= 1e-30F && s.sigma_color <= 1e30F,
-          fmt::format("sigma color {}: a radiance from 1e-30 to 1e30 is expected, such as 0.5", s.sigma_color));
+          fmt::format("sigma color {}: a radiance from 1e-30 to 1e30 is expected, such as 30", s.sigma_color));
   require(s.sigma_feature >= 1e-6F && s.sigma_feature <= 1e6F,
           fmt::format("sigma feature {}: a number from 1e-6 to 1e6 is expected, such as 0.5", s.sigma_feature));
   require(s.polish == 0 || (s.polish >= 1e-3F && s.polish <= 10),

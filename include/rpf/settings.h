@@ -72,7 +72,7 @@ struct Settings {
   bool clamp_negative = false;     ///< negative radiance becomes 0
 
   // Methods with fixed weights. The standard deviation on the film is a quarter of the box width, in pixels.
-  float sigma_color = 0.5F;    ///< in the unit of the radiance (linear, over R, G and B together); 1e-30 .. 1e30
+  float sigma_color = 30;      ///< in the unit of the radiance (linear, over R, G and B together); 1e-30 .. 1e30
   float sigma_feature = 0.5F;  ///< in standard deviations of a group of features over the frame; 1e-6 .. 1e6
 
   // Steps beyond thesis and paper (docs/deviations.md).

@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/filter_input.h"
 #include "cli/filter_options.h"
+#include "cli/method_options.h"
 #include "cli/needs.h"
 #include "cli/print.h"
 #include "cli/progress_bar.h"
@@ -140,6 +141,7 @@ int run(const FilterOptions& options, const std::vector<std::string>& arguments)
   SampleReadOptions read_options = read_options_of(options.map, settings.max_memory);
   FilterInput input = open_input(options.input, settings.method, read_options);
   const SampleFileInfo& info = input.info;
+  if (input.image && options.sigma_color == 0) settings.sigma_color = image_sigma_color;
   check_budget(info, settings, options.verbose || options.dry_run);
   if (!options.output.empty()) check_target(options.output);
   if (!options.aov.empty() && !is_folder(options.aov)) check_target(options.aov);

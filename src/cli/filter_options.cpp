@@ -241,6 +241,7 @@ Settings settings_of(const FilterOptions& o) {
   s.profile = o.profile == "paper" ? Profile::paper : Profile::thesis;
   if (!o.boxes.empty()) s.box_widths = box_widths(o.boxes);
   if (o.samples_factor > 0) s.samples_factor = o.samples_factor;
+  if (o.sigma_color > 0) s.sigma_color = o.sigma_color;
   if (o.neighbors_factor > 0) s.neighbors_factor = o.neighbors_factor;
   if (!o.features.empty()) s.features = groups(o.features);
   if (!o.random.empty()) s.random = groups(o.random);

@@ -48,8 +48,10 @@ void add_method_options(CLI::App& app, FilterOptions& o) {
          "and from the features. gaussian and bilateral also filter any image")
       ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
-  app.add_option("--sigma-color", o.settings.sigma_color, "Standard deviation of the color, in radiance as in the file")
-      ->capture_default_str();
+  app.add_option("--sigma-color", o.sigma_color,
+                 "Standard deviation of the color, in linear radiance as the file has it")
+      ->check(CLI::PositiveNumber)
+      ->default_str(fmt::format("{:g}, of an image {:g}", Settings{}.sigma_color, image_sigma_color));
   app.add_option("--sigma-feature", o.settings.sigma_feature,
                  "Standard deviation of a feature, 1 is that of its group over the frame")
       ->capture_default_str();

@@ -7,6 +7,9 @@
 
 namespace rpf::cli {
 
+/// --sigma-color of an image where it is not given: most images end at 1, and have less noise than samples.
+constexpr float image_sigma_color = 0.1F;
+
 /// --method and the sigmas. After parsing, options that mean nothing to the method are refused: Error(usage).
 void add_method_options(CLI::App& app, FilterOptions& options);
 
