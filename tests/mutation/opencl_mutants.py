@@ -92,8 +92,8 @@ MUTANTS = [
            DOF + "statistics", "one feature instead of the mean"),
 
     # ---------------------------------------------------------------- 8. fixed weights
-    Mutant("cl_box_edge", BOX, "max(x - pass->reach, 0)", "max(x - pass->reach, 1)",
-           "conformance method/gaussian/4spp neighbors", "box: without the first column"),
+    Mutant("cl_box_edge", BOX, "row <= min(y + pass->reach, pass->height - 1)", "row <= min(y + pass->reach, pass->height - 2)",
+           "conformance method/gaussian/4spp neighbors", "box: without the last row"),
     Mutant("cl_box_own", BOX, "begin = after_own;", "begin = own;",
            "conformance method/bilateral/varying neighbors", "box: the own samples twice"),
     Mutant("cl_box_missing", BOX, "RPF_VARIABLES + v], centers[v])", "RPF_VARIABLES + v], 0.0f)",
