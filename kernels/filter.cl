@@ -20,6 +20,8 @@
 #include "transpose.cl"
 
 #include "statistics.cl"
+
+#include "coordinates.cl"
 #include "weighting.cl"
 
 static void trace_vectors(const Trace* trace, uint at, const float16* values, int count) {
@@ -99,8 +101,11 @@ static uint fill_neighborhood(const Frame* frame, const rpf_pass* pass, uint pix
 // Sections 6 and 7 for the pixel whose neighborhood is in the slot.
 static void filter_pixel(const rpf_pass* pass, uint own, uint neighbors, const Slot* slot, const Normalization* n,
                          const Weights* weights, const Trace* trace, __global float* out) {
-  Means means = {own, neighbors, n};
-  choose_coordinates(pass, own, &weights->color, weights->beta, &means.coordinates);
+  Means means;
+  means.own = own;
+  means.neighbors = neighbors;
+  means.normalization = n;
+  choose_coordinates(pass, &weights->color, weights->beta, &means);
   filter_samples(pass, slot, &means, trace, out);
   for (uint i = 0; trace->values && i < own * RPF_CARRIED; ++i) trace->values[trace->at.filtered + i] = out[i];
   if (pass->outlier_step) replace_outliers(out, own);

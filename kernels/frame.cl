@@ -15,8 +15,12 @@
 #define RPF_PAIRS (3 * (2 + RPF_RANDOM + RPF_FEATURES) + RPF_FEATURES * (2 + RPF_RANDOM))  // rpf_pairs()
 #define RPF_HALF_BINS ((RPF_BINS - 1) / 2)
 #define RPF_BIN_VECTORS ((RPF_BINS + RPF_BINS_AT_ONCE - 1) / RPF_BINS_AT_ONCE)
-#define RPF_COLUMNS \
-  (3 + RPF_FEATURES + RPF_CARRIED + 1)  // coordinates of a distance, c', and one for what is not needed
+// Of a distance, at most: position (section 8), colors, features.
+#define RPF_COORDINATES (5 + RPF_FEATURES)
+#define RPF_FIRST_COLOR RPF_COORDINATES                  // column of c'
+#define RPF_COLUMNS (RPF_COORDINATES + RPF_CARRIED + 1)  // and one for what is not needed
+// Own samples that are filtered together: a neighbor's coordinates are read once for all of them.
+#define RPF_BATCH (RPF_SAMPLES > 0 && RPF_SAMPLES < 4 ? RPF_SAMPLES : 4)
 #define RPF_NO_SAMPLE 0xFFFFFFFFu
 
 #define RPF_LANE_NUMBERS ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
@@ -46,7 +50,7 @@ static uint variable_at(uint place) { return place < RPF_FEATURES ? place + RPF_
 typedef struct {
   __global uint* candidates;  // [RPF_DRAWN_AT_ONCE]
   __global uint* neighbors;   // [capacity]
-  __global float16* records;  // [RPF_CHUNKS][capacity] of the neighbors
+  __global float16* records;  // [RPF_CHUNKS][capacity] of the neighbors; in box.cl [RPF_COLUMNS][capacity / RPF_LANES]
   __global ulong8* planes;    // [RPF_VARIABLES][words][RPF_BIN_VECTORS] one bit a neighbor and bin (statistics.cl)
   __global float16* columns;  // [RPF_COLUMNS][RPF_STRETCH] a stretch of neighbors, RPF_LANES in a vector (weighting.cl)
   __global float16* sums;     // [own samples][1 + RPF_CARRIED] of weights and weighted colors

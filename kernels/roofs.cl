@@ -1,5 +1,5 @@
-// What a device can do at best, for the benchmarks to compare with (bench/roofs.cpp). Each kernel is one kind of work in
-// explicit vectors, as the filter's kernels are written, without anything that waits.
+// What a device can do at best, for the benchmarks to compare with (bench/roofs.cpp). Each kernel is one kind of work
+// in explicit vectors, as the filter's kernels are written, without anything that waits.
 #include "frame.cl"
 
 #define RPF_CHAINS 8  // independent, so that an operation need not wait for the one before
@@ -28,7 +28,8 @@ __kernel void roof_exp(__global float16* out, const uint rounds, const float ste
   for (int c = 0; c < RPF_CHAINS; ++c) sum[c] = 0.0f;
   for (uint i = 0; i < rounds; ++i)
 #pragma unroll
-    for (int c = 0; c < RPF_CHAINS; ++c) sum[c] += rpf_exp(-step * (float)((i + 8 * c) & 63u) - convert_float16(RPF_LANE_NUMBERS));
+    for (int c = 0; c < RPF_CHAINS; ++c)
+      sum[c] += rpf_exp(-step * (float)((i + 8 * c) & 63u) - convert_float16(RPF_LANE_NUMBERS));
   float16 total = 0.0f;
   for (int c = 0; c < RPF_CHAINS; ++c) total += sum[c];
   out[get_global_id(0)] = total;
@@ -49,7 +50,8 @@ static ulong common_bits(__global const ulong* a, __global const ulong* b0, __gl
 __kernel void roof_popcount(__global ulong* out, __global const ulong* planes, const uint words, const uint rounds) {
   ulong count = 0;
   for (uint i = 0; i < rounds; ++i)
-    count += common_bits(planes + (i & 7u) * words, planes + (i >> 3 & 3u) * words, planes + (4 + (i >> 5 & 3u)) * words, words);
+    count += common_bits(planes + (i & 7u) * words, planes + (i >> 3 & 3u) * words,
+                         planes + (4 + (i >> 5 & 3u)) * words, words);
   out[get_global_id(0)] = count;
 }
 

@@ -1,42 +1,7 @@
 // Sections 6 and 7: the weighted means of a pixel's samples, and the outlier step after them.
-
-// Own samples that are filtered together: a neighbor's coordinates are read once for all of them.
-#define RPF_BATCH (RPF_SAMPLES > 0 && RPF_SAMPLES < 4 ? RPF_SAMPLES : 4)
-
-// The variables that take part in the distance, colors first, then features, and what their values are multiplied with.
-typedef struct {
-  uint count;
-  ushort place[3 + RPF_FEATURES];
-  ushort column_of[RPF_CHUNKS * RPF_LANES];  // by place
-  float16 scale[RPF_CHUNKS];                 // by place; c' is left as it is
-} Coordinates;
-
-#define RPF_FIRST_COLOR (3 + RPF_FEATURES)  // first column of c'
-
-static void add_coordinate(uint variable, float scale, float* scales, Coordinates* out) {
-  if (!(scale > 0.0f)) return;
-  const uint place = place_of(variable);
-  out->column_of[place] = (ushort)out->count;
-  out->place[out->count] = (ushort)place;
-  ++out->count;
-  scales[place] = scale;
-}
-
-static void choose_coordinates(const rpf_pass* pass, uint own, const rpf_color_weights* color, const float* beta,
-                               Coordinates* out) {
-  const float sharpness = rpf_sharpness(color->fraction_random, pass->noise, own);
-  float scales[RPF_CHUNKS * RPF_LANES];
-  for (uint place = 0; place < RPF_CHUNKS * RPF_LANES; ++place) {
-    const int is_color = place >= RPF_VARIABLES && place < RPF_VARIABLES + RPF_CARRIED;
-    out->column_of[place] = (ushort)(is_color ? RPF_FIRST_COLOR + place - RPF_VARIABLES : RPF_COLUMNS - 1);
-    scales[place] = 1.0f;
-  }
-  out->count = 0;
-  for (uint i = 0; i < 3; ++i) add_coordinate(i, rpf_distance_scale(sharpness, color->alpha[i]), scales, out);
-  for (uint k = 0; k < RPF_FEATURES; ++k)
-    add_coordinate(RPF_FIRST_FEATURE + k, rpf_distance_scale(sharpness, beta[k]), scales, out);
-  for (int c = 0; c < RPF_CHUNKS; ++c) out->scale[c] = vload16(c, scales);
-}
+//
+// What a pixel is filtered with (Means: own, neighbors, count; fill_columns; load_own) comes from coordinates.cl or
+// box.cl.
 
 // The tree of rpf_lanes_total.
 static float lanes_total(float16 sum) {
@@ -55,48 +20,8 @@ static float smallest_lane(float16 value) {
 
 static float largest_lane(float16 value) { return -smallest_lane(-value); }
 
-// What is filtered, and with what.
-typedef struct {
-  uint own, neighbors;
-  const Normalization* normalization;
-  Coordinates coordinates;
-} Means;
-
-// A stretch of neighbors, from block `first` on, as columns: the scaled coordinates and c'. Behind the last neighbor
-// the first one is repeated: it gets no weight, and its color is inside every range.
-static void fill_columns(const rpf_pass* pass, const Slot* slot, const Means* means, uint first, uint last) {
-  for (uint block = first; block < last; ++block)
-#pragma unroll
-    for (int c = 0; c < RPF_CHUNKS; ++c) {
-      float16 rows[RPF_LANES];
-#pragma unroll
-      for (uint l = 0; l < RPF_LANES; ++l) {
-        const uint j = block * RPF_LANES + l;
-        rows[l] =
-            normalized(pass, slot, j < means->neighbors ? j : 0, c, means->normalization) * means->coordinates.scale[c];
-      }
-      transpose(rows);
-#pragma unroll
-      for (int l = 0; l < RPF_LANES; ++l)
-        slot->columns[means->coordinates.column_of[RPF_LANES * c + l] * RPF_STRETCH + block - first] = rows[l];
-    }
-}
-
-// The scaled coordinates of a batch of own samples. Behind the last own sample that one is repeated.
-static void load_own(const rpf_pass* pass, const Slot* slot, const Means* means, uint begin,
-                     float (*own)[3 + RPF_FEATURES]) {
-  for (uint i = 0; i < RPF_BATCH; ++i) {
-    float values[RPF_CHUNKS * RPF_LANES];
-    for (int c = 0; c < RPF_CHUNKS; ++c)
-      vstore16(
-          normalized(pass, slot, min(begin + i, means->own - 1), c, means->normalization) * means->coordinates.scale[c],
-          c, values);
-    for (uint a = 0; a < means->coordinates.count; ++a) own[i][a] = values[means->coordinates.place[a]];
-  }
-}
-
 // Weights of the RPF_LANES neighbors in a block of the columns for each own sample of the batch.
-static void block_weights(const Slot* slot, uint coordinates, float (*own)[3 + RPF_FEATURES], uint block,
+static void block_weights(const Slot* slot, uint coordinates, float (*own)[RPF_COORDINATES], uint block,
                           int neighbors_left, float16* weight) {
   float16 distance[RPF_BATCH];
 #pragma unroll
@@ -128,7 +53,7 @@ typedef struct {
 } Sums;
 
 // The stretch from block `first` on, whose columns are filled, for the own samples from `begin` on.
-static void sum_stretch(const Slot* slot, const Means* means, float (*own)[3 + RPF_FEATURES], uint begin, uint first,
+static void sum_stretch(const Slot* slot, const Means* means, float (*own)[RPF_COORDINATES], uint begin, uint first,
                         uint last, const Trace* trace, Sums* sums) {
 #pragma unroll
   for (int i = 0; i < RPF_BATCH; ++i) {
@@ -137,8 +62,7 @@ static void sum_stretch(const Slot* slot, const Means* means, float (*own)[3 + R
   }
   for (uint block = first; block < last; ++block) {
     float16 weight[RPF_BATCH];
-    block_weights(slot, means->coordinates.count, own, block - first, (int)(means->neighbors - block * RPF_LANES),
-                  weight);
+    block_weights(slot, means->count, own, block - first, (int)(means->neighbors - block * RPF_LANES), weight);
 #pragma unroll
     for (int i = 0; i < RPF_BATCH; ++i) {
       sums->weight[i] += weight[i];
@@ -153,7 +77,7 @@ static void sum_stretch(const Slot* slot, const Means* means, float (*own)[3 + R
 static void add_stretch(const rpf_pass* pass, const Slot* slot, const Means* means, uint first, uint last,
                         const Trace* trace) {
   for (uint begin = 0; begin < means->own; begin += RPF_BATCH) {
-    float own[RPF_BATCH][3 + RPF_FEATURES];
+    float own[RPF_BATCH][RPF_COORDINATES];
     Sums stretch;
     load_own(pass, slot, means, begin, own);
     sum_stretch(slot, means, own, begin, first, last, trace, &stretch);

@@ -1,4 +1,4 @@
-#include "conformance/cases.h"
+#include "conformance/case_list.h"
 
 #include <fmt/format.h>
 
@@ -11,40 +11,34 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Builds the list: every case once for each profile.
-class CaseList {
- public:
-  std::vector<ConformanceCase> cases;
-
-  /// The case of most groups: a frame that is quick, and large enough for a box of 21 to be cut on all sides.
-  static ConformanceCase basic(const std::string& scene = "dof", int samples = 4) {
-    ConformanceCase c;
-    c.scene = scene;
-    c.options.width = 25;
-    c.options.height = 18;
-    c.options.samples = samples == varying ? 3 : samples;
-    c.options.adaptive = samples == varying;
-    c.settings.box_widths = {15, 7};
-    return c;
-  }
-
-  void add(const std::string& name, ConformanceCase c) {
-    for (const Profile profile : {Profile::thesis, Profile::paper}) {
-      c.name = fmt::format("{}/{}", name, profile == Profile::thesis ? "thesis" : "paper");
-      c.settings.profile = profile;
-      cases.push_back(c);
-    }
-  }
-  void add(const std::string& name, const std::function<void(Settings&)>& set) {
-    ConformanceCase c = basic();
-    set(c.settings);
-    add(name, c);
-  }
-
-  static constexpr int varying = 0;
-};
+}  // namespace
 
 std::string count_name(int samples) { return samples == CaseList::varying ? "varying" : fmt::format("{}spp", samples); }
+
+Change poison(const std::string& slot, float value, std::size_t step) {
+  return [=](SampleBuffer& samples) {
+    for (std::size_t i = step / 2; i < samples.sample_count(); i += step)
+      samples.record(i)[*samples.layout.find(slot)] = value;
+  };
+}
+
+std::vector<std::pair<std::string, Change>> extremes() {
+  return {{"nan-color", poison("G", nan, 7)},
+          {"nan-feature", poison("feature.N.X", nan, 3)},
+          {"missing-feature", poison("feature.N.X", nan, 1)},
+          {"infinite-feature", poison("feature.P.Y", infinity, 5)},
+          {"nan-random", poison("random.lens.U", nan, 4)},
+          {"firefly", poison("R", 1e9F, 1001)},
+          {"negative", poison("B", -3.0F, 11)},
+          {"largest", poison("R", std::numeric_limits<float>::max(), 13)},
+          {"black", poison("R", 0.0F, 1)},
+          {"subnormal", [](SampleBuffer& samples) {
+             for (std::size_t i = 0; i < samples.sample_count(); ++i)
+               for (const char* slot : {"R", "G", "B"}) samples.record(i)[*samples.layout.find(slot)] *= 1e-42F;
+           }}};
+}
+
+namespace {
 
 /// Every scene, with the passes of the profiles but for the largest box.
 void add_scenes(CaseList& list) {
@@ -192,33 +186,12 @@ void add_settings(CaseList& list) {
   });
 }
 
-/// Sets one channel of every `step`-th sample.
-std::function<void(SampleBuffer&)> poison(const std::string& slot, float value, std::size_t step) {
-  return [=](SampleBuffer& samples) {
-    for (std::size_t i = step / 2; i < samples.sample_count(); i += step)
-      samples.record(i)[*samples.layout.find(slot)] = value;
-  };
-}
-
 void add_extremes(CaseList& list) {
-  const auto add = [&](const std::string& name, const std::function<void(SampleBuffer&)>& change) {
+  for (const auto& [name, change] : extremes()) {
     ConformanceCase c = CaseList::basic();
     c.change = change;
     list.add("extreme/" + name, c);
-  };
-  add("nan-color", poison("G", nan, 7));
-  add("nan-feature", poison("feature.N.X", nan, 3));
-  add("missing-feature", poison("feature.N.X", nan, 1));
-  add("infinite-feature", poison("feature.P.Y", infinity, 5));
-  add("nan-random", poison("random.lens.U", nan, 4));
-  add("firefly", poison("R", 1e9F, 1001));
-  add("negative", poison("B", -3.0F, 11));
-  add("largest", poison("R", std::numeric_limits<float>::max(), 13));
-  add("black", poison("R", 0.0F, 1));
-  add("subnormal", [](SampleBuffer& samples) {
-    for (std::size_t i = 0; i < samples.sample_count(); ++i)
-      for (const char* slot : {"R", "G", "B"}) samples.record(i)[*samples.layout.find(slot)] *= 1e-42F;
-  });
+  }
 }
 
 }  // namespace
@@ -235,6 +208,7 @@ std::vector<ConformanceCase> all_conformance_cases() {
   add_windows(list);
   add_settings(list);
   add_extremes(list);
+  add_methods(list);
   return std::move(list.cases);
 }
 

@@ -7,12 +7,18 @@
 namespace rpf {
 
 ScratchSizes::ScratchSizes(const Plan& plan) : most_samples(plan.most_samples) {
-  for (const PassPlan& pass : plan.passes) capacity = std::max(capacity, pass.max_neighbors);
   const std::size_t variables = plan.variables.count(), features = plan.variables.feature_names.size();
   const auto bins = 2 * static_cast<kernel::uint>(plan.half_bins) + 1;
-  records = (variables + plan.carried + RPF_LANES - 1) / RPF_LANES * capacity;
-  planes = variables * kernel::rpf_plane_words(capacity) * kernel::rpf_bin_vectors(bins);
-  columns = (3 + features + plan.carried + 1) * RPF_STRETCH;
+  for (const PassPlan& pass : plan.passes) capacity = std::max(capacity, pass.max_neighbors);
+  columns = 5 + features + plan.carried + 1;
+  if (plan.method == Method::rpf) {
+    records = (variables + plan.carried + RPF_LANES - 1) / RPF_LANES * capacity;
+    planes = variables * kernel::rpf_plane_words(capacity) * kernel::rpf_bin_vectors(bins);
+  } else {
+    capacity = (kernel::rpf_blocks(capacity) + 1) * RPF_LANES;  // box.cl copies whole vectors
+    records = columns * capacity / RPF_LANES;
+  }
+  columns *= RPF_STRETCH;
   sums = std::size_t{most_samples} * (1 + plan.carried);
 }
 
@@ -22,13 +28,13 @@ std::uint64_t ScratchSizes::bytes() const {
 }
 
 Scratch::Scratch(Session& session, const Plan& plan, std::size_t items) : sizes(plan) {
-  constexpr std::size_t word_bytes = ScratchSizes::word_bytes, vector_bytes = ScratchSizes::vector_bytes;
-  candidates = session.buffer(items * RPF_DRAWN_AT_ONCE * word_bytes);
-  neighbors = session.buffer(items * sizes.capacity * word_bytes);
-  records = session.buffer(items * sizes.records * vector_bytes);
-  planes = session.buffer(items * sizes.planes * vector_bytes);
-  columns = session.buffer(items * sizes.columns * vector_bytes);
-  sums = session.buffer(items * sizes.sums * vector_bytes);
+  constexpr std::size_t word = ScratchSizes::word_bytes, vector = ScratchSizes::vector_bytes;
+  candidates = session.buffer(items * RPF_DRAWN_AT_ONCE * word);
+  neighbors = session.buffer(items * sizes.capacity * word);
+  records = session.buffer(items * sizes.records * vector);
+  planes = session.buffer(items * sizes.planes * vector);
+  columns = session.buffer(items * sizes.columns * vector);
+  sums = session.buffer(items * sizes.sums * vector);
 }
 
 }  // namespace rpf

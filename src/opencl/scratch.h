@@ -12,7 +12,7 @@ struct ScratchSizes {
 
   std::uint32_t capacity = 1;      ///< neighbors
   std::uint32_t most_samples = 1;  ///< own samples
-  std::size_t records = 0, planes = 0, columns = 0, sums = 0;
+  std::size_t records = 0, planes = 1, columns = 0, sums = 0;
 
   explicit ScratchSizes(const Plan& plan);
   std::uint64_t bytes() const;
