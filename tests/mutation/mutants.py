@@ -14,7 +14,6 @@ PREPARE, DRIVER, RESOLVE = "src/prepare.cpp", "src/driver.cpp", "src/resolve.cpp
 MERGE, RAW_READER, HDR_FLIP = "src/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
 SELECTION, SPIKES, POLISH_TILE = "src/selection.cpp", "src/spikes.cpp", "src/polish_tile.cpp"
 INFORMATION, INFORMATIVE = "src/information.cpp", "src/informative.cpp"
-BOX, FIXED_WEIGHTS = "src/cpu/box.cpp", "src/fixed_weights.cpp"
 SCENE = "src/scene/"
 BOTH = "Profiles/BothProfiles."
 
@@ -355,22 +354,6 @@ MUTANTS = [
            "Raw.AliasesAndMapWorkAndUnusedChannelsAreSkipped", "raw: planes of unused channels are not skipped"),
     Mutant("raw_counts_unchecked", RAW_READER, "if (sum != expected) fail();", "",
            "RawRefusals.EveryTruncationAndEveryByteMore", "raw: fewer samples than the file holds"),
-
-    # ---------------------------------------------------------------- 8. fixed weights
-    Mutant("box_row", BOX, "frame.height - 1); ++row", "frame.height - 2); ++row", "oracle gaussian neighbors", "box: without the last row"),
-    Mutant("box_own", BOX, "first_sample[row == y ? pixel + 1 : begin]", "first_sample[row == y ? pixel : begin]",
-           "oracle bilateral neighbors", "box: the own samples twice"),
-    Mutant("box_missing", ELEMENTWISE, "rpf_or_zero(value - center)", "rpf_or_zero(value) - center",
-           "oracle cross_bilateral_missing weights", "a missing feature counts as 0 instead of the mean"),
-    Mutant("box_sigma", FIXED_WEIGHTS, "(std::sqrt(2.0) * sigma)", "sigma", "oracle gaussian weights", "sigma: without the 2"),
-    Mutant("box_group", FIXED_WEIGHTS, "group_of_variable(names[other]) == group_of_variable(names[k])", "other == k",
-           "oracle cross_bilateral weights", "features: a unit for every component"),
-    Mutant("box_radiance", FIXED_WEIGHTS, "(settings.sigma_color) * facts.radiance_scale", "(settings.sigma_color)",
-           "oracle bilateral weights", "sigma of the color: in scaled radiance"),
-    Mutant("box_largest_scale", FIXED_WEIGHTS, "0x1p80", "0x1p127",
-           "Methods/EveryMethod.StaysInsideTheRangeOfItsInputAtAnyRadianceAndSigma/*", "sigma: so small that distances overflow"),
-    Mutant("box_position", PREPARE, "(place[axis]) + 0.5F", "(place[axis])",
-           "Methods/EveryMethod.TakesTheMiddleOfThePixelForAMissingPosition/*", "input: a missing position is the pixel's corner"),
 
     # ---------------------------------------------------------------- metrics
     Mutant("hdr_flip_least", HDR_FLIP, "return std::max(a, b);", "return std::min(a, b);",

@@ -7,7 +7,7 @@ from mutants import Mutant
 
 NUMERIC = "kernels/numeric.h"
 NEIGHBORHOOD, STATISTICS = "kernels/neighborhood.cl", "kernels/statistics.cl"
-WEIGHTING, FILTER, BOX = "kernels/weighting.cl", "kernels/filter.cl", "kernels/box.cl"
+WEIGHTING, FILTER = "kernels/weighting.cl", "kernels/filter.cl"
 DOF, PAPER = "conformance scene/dof/thesis ", "conformance scene/dof/paper "
 
 MUTANTS = [
@@ -90,16 +90,4 @@ MUTANTS = [
            DOF + "statistics", "pixels are left out"),
     Mutant("cl_statistics", FILTER, "statistics.beta = rpf_mean(weights->beta, RPF_FEATURES);", "statistics.beta = weights->beta[0];",
            DOF + "statistics", "one feature instead of the mean"),
-
-    # ---------------------------------------------------------------- 8. fixed weights
-    Mutant("cl_box_edge", BOX, "row <= min(y + pass->reach, pass->height - 1)", "row <= min(y + pass->reach, pass->height - 2)",
-           "conformance method/gaussian/4spp neighbors", "box: without the last row"),
-    Mutant("cl_box_own", BOX, "begin = after_own;", "begin = own;",
-           "conformance method/bilateral/varying neighbors", "box: the own samples twice"),
-    Mutant("cl_box_missing", BOX, "RPF_VARIABLES + v], centers[v])", "RPF_VARIABLES + v], 0.0f)",
-           "conformance method/cross-bilateral/extreme/nan-feature weights", "a missing feature counts as 0 instead of the mean"),
-    Mutant("cl_box_copy", BOX, "i < box->count[r]; i += RPF_LANES", "i + RPF_LANES <= box->count[r]; i += RPF_LANES",
-           "conformance method/gaussian/varying weights", "runs: what fills no vector is not copied"),
-    Mutant("cl_box_carried", BOX, "(RPF_VARIABLES + c) * pass->samples", "(RPF_VARIABLES + RPF_CARRIED - 1 - c) * pass->samples",
-           "conformance method/gaussian/4spp filtered", "colors: blue for red"),
 ]
