@@ -6,6 +6,10 @@
 #ifndef RPF_PHASES
 #define RPF_PHASES 5
 #endif
+// 1: also what explains a pixel. Only `rpf explain` compiles that.
+#ifndef RPF_EXPLAIN
+#define RPF_EXPLAIN 0
+#endif
 
 #include "frame.cl"
 #include "neighborhood.cl"
@@ -46,12 +50,13 @@ typedef struct {
 } Weights;
 
 static void weigh(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot, const Trace* trace,
-                  Weights* out) {
+                  Weights* out, __global float* explained) {
   const uint measured = min(neighbors, pass->measured);
   float information[RPF_PAIRS];
   measure_dependencies(frame, pass, measured, slot, trace, information);
   const rpf_feature_weights feature = {out->feature_fraction_random, out->fraction_feature, out->beta};
   rpf_weigh_dependencies(information, RPF_RANDOM, RPF_FEATURES, pass->alpha_factor, pass->growth, &out->color, feature);
+  for (uint i = 0; RPF_EXPLAIN && i < RPF_PAIRS; ++i) explained[i] = information[i];
   if (!trace->values) return;
   trace->values[trace->at.measured] = (float)measured;
   trace_floats(trace, trace->at.information, information, RPF_PAIRS);
@@ -79,10 +84,11 @@ static uint fill_neighborhood(const Frame* frame, const rpf_pass* pass, uint pix
 
 // Sections 6 and 7 for the pixel whose neighborhood is in the slot.
 static void filter_pixel(const rpf_pass* pass, uint own, uint neighbors, const Slot* slot, const Weights* weights,
-                         const Trace* trace, __global float* out) {
+                         const Trace* trace, __global float* out, __global float* explained) {
   Coordinates coordinates;
   choose_coordinates(pass, own, &weights->color, weights->beta, &coordinates);
   filter_samples(own, neighbors, slot, &coordinates, trace, out);
+  if (RPF_EXPLAIN) explained[RPF_PAIRS] = effective_samples(own, neighbors, slot, &coordinates);
   for (uint i = 0; trace->values && i < own * RPF_CARRIED; ++i) trace->values[trace->at.filtered + i] = out[i];
   if (pass->outlier_step) replace_outliers(out, own);
 }
@@ -91,6 +97,7 @@ static void filter_pixel(const rpf_pass* pass, uint own, uint neighbors, const S
 typedef struct {
   __global float* colors;                     // [sample][RPF_CARRIED]
   __global rpf_pixel_statistics* statistics;  // [pixel]
+  __global float* explained;  // of the tile: [pixel][RPF_PAIRS + 1] mutual information, effective samples; with RPF_EXPLAIN
 } Output;
 
 // Whole pixels from x, y on; positions in the frame.
@@ -108,6 +115,12 @@ static uint leader_of(const Frame* frame, const rpf_pass* pass, Area block) {
   return RPF_NO_SAMPLE;
 }
 
+// Where a pixel of the tile is explained. Blocks are single pixels then: each measures for itself.
+static __global float* explained_at(const rpf_pass* pass, uint pixel, const Output* output) {
+  const int y = (int)(pixel / (uint)pass->width), x = (int)pixel - y * pass->width;
+  return output->explained + (size_t)((y - pass->tile_y) * pass->tile_width + x - pass->tile_x) * (RPF_PAIRS + 1);
+}
+
 static int is_inside(const rpf_pass* pass, Area area, uint pixel) {
   const int y = (int)(pixel / (uint)pass->width), x = (int)pixel - y * pass->width;
   return x >= area.x && x < area.end_x && y >= area.y && y < area.end_y;
@@ -118,15 +131,16 @@ static void filter_member(const Frame* frame, const rpf_pass* pass, uint pixel, 
                           Weights* weights, Trace* trace, const Output* output) {
   const uint own = samples_of(frame, pass, pixel), first = first_sample_of(frame, pass, pixel);
   rpf_pixel_statistics statistics = {0, 0, 0.0f, 0.0f, 0.0f};
+  __global float* explained = RPF_EXPLAIN ? explained_at(pass, pixel, output) : 0;
   if (own > 0) {
     statistics.neighbors = fill_neighborhood(frame, pass, pixel, slot, trace, &statistics.drawn);
-    if (measures) weigh(frame, pass, statistics.neighbors, slot, trace, weights);
+    if (measures) weigh(frame, pass, statistics.neighbors, slot, trace, weights, explained);
     statistics.fraction_random = weights->color.fraction_random;
     statistics.alpha = rpf_mean(weights->color.alpha, 3);
     statistics.beta = rpf_mean(weights->beta, RPF_FEATURES);
     if (RPF_PHASES > 4)
       filter_pixel(pass, own, statistics.neighbors, slot, weights, trace,
-                   output->colors + (size_t)(first - pass->first_sample) * RPF_CARRIED);
+                   output->colors + (size_t)(first - pass->first_sample) * RPF_CARRIED, explained);
   }
   output->statistics[pixel - pass->first_pixel] = statistics;
 }
@@ -144,7 +158,7 @@ static void filter_block(const Frame* frame, const rpf_pass* pass, Area block, A
     none.values = 0;
     uint drawn;
     const uint neighbors = fill_neighborhood(frame, pass, leader, slot, &none, &drawn);
-    weigh(frame, pass, neighbors, slot, trace, &weights);
+    weigh(frame, pass, neighbors, slot, trace, &weights, 0);
   }
   for (int y = wanted.y; y < wanted.end_y; ++y)
     for (int x = wanted.x; x < wanted.end_x; ++x) {
@@ -171,7 +185,7 @@ __kernel void lay_out_records(__global const float* records, __global const floa
     }
 }
 
-// Filters the pixels of a tile. `next_colors` [sample][RPF_CARRIED] and `statistics` [pixel] cover the band. Where
+// Filters the pixels of a tile. `next_colors` [sample][RPF_CARRIED] and `statistics` [pixel] cover the band, `explained` the tile. Where
 // `trace_values` is not null the tile is one pixel.
 __kernel void filter_tile(__global const uint* first_sample, __global const float16* chunks,
                           __global const char* offsets, __global const uint* draws,
@@ -179,6 +193,7 @@ __kernel void filter_tile(__global const uint* first_sample, __global const floa
                           __global const float* minimum_tolerance, __global uint* candidates, __global uint* neighbors,
                           __global float16* columns, __global uint* planes, __global float16* neighbor_colors,
                           __global float* next_colors, __global rpf_pixel_statistics* statistics,
+                          __global float* explained,
                           __global float* trace_values, __global uint* trace_histograms, const rpf_pass pass) {
   const Frame frame = {first_sample, chunks, offsets, draws, entropy, rejection_factor, minimum_tolerance};
   Trace trace;
@@ -192,7 +207,7 @@ __kernel void filter_tile(__global const uint* first_sample, __global const floa
                      planes + item * RPF_VARIABLES * RPF_BINS * words,
                      neighbor_colors + item * RPF_CARRIED * blocks,
                      blocks};
-  const Output output = {next_colors, statistics};
+  const Output output = {next_colors, statistics, explained};
   const Area tile = {pass.tile_x, pass.tile_y, pass.tile_x + pass.tile_width, pass.tile_y + pass.tile_height};
   const int side = (int)pass.block, first_x = tile.x / side, first_y = tile.y / side;
   const uint across = (uint)((tile.end_x - 1) / side - first_x + 1), down = (uint)((tile.end_y - 1) / side - first_y + 1);

@@ -110,12 +110,9 @@ static void add_stretch(const Slot* slot, const Coordinates* coordinates, float 
   }
 }
 
-// Filters RPF_BATCH own samples from `begin`: out[own][RPF_CARRIED]. Behind the last own sample it repeats that one.
-static void filter_batch(const Slot* slot, const Coordinates* coordinates, uint begin, uint own, uint neighbors,
-                         const float2* range, const Trace* trace, __global float* out) {
-  const uint blocks = rpf_blocks(neighbors);
-  float own_value[RPF_BATCH][3 + RPF_FEATURES];
-  Sums sums;
+// The coordinates of RPF_BATCH own samples from `begin`. Behind the last own sample it repeats that one.
+static void load_own(const Slot* slot, const Coordinates* coordinates, uint begin, uint own,
+                     float (*own_value)[3 + RPF_FEATURES]) {
   for (uint i = 0; i < RPF_BATCH; ++i) {
     const uint sample = min(begin + i, own - 1);
     for (uint a = 0; a < coordinates->count; ++a) {
@@ -123,6 +120,39 @@ static void filter_batch(const Slot* slot, const Coordinates* coordinates, uint 
       own_value[i][a] = column[sample] * coordinates->scale[a];
     }
   }
+}
+
+// For effective_samples(): 1 / sum of the weights of each own sample. The candidates are no longer needed.
+static void keep_totals(const Slot* slot, uint begin, uint own, const Sums* sums) {
+  __global float* inverse_total = (__global float*)slot->candidates;
+  for (uint i = 0; i < RPF_BATCH && begin + i < own; ++i)
+    inverse_total[begin + i] = 1.0f / lanes_total(sums->weight[i]);
+}
+
+// After filter_samples(): rpf_effective_samples() of the pixel.
+static float effective_samples(uint own, uint neighbors, const Slot* slot, const Coordinates* coordinates) {
+  __global const float* inverse_total = (__global const float*)slot->candidates;
+  float own_value[RPF_BATCH][3 + RPF_FEATURES];
+  float16 weight[RPF_BATCH], squares = 0.0f;
+  for (uint block = 0; block < rpf_blocks(neighbors); ++block) {
+    float16 share = 0.0f;
+    for (uint begin = 0; begin < own; begin += RPF_BATCH) {
+      load_own(slot, coordinates, begin, own, own_value);
+      block_weights(slot, coordinates, own_value, block, neighbors, weight);
+      for (uint i = 0; i < RPF_BATCH && begin + i < own; ++i) share += weight[i] * inverse_total[begin + i];
+    }
+    squares += share * share;
+  }
+  return rpf_effective_samples(own, lanes_total(squares));
+}
+
+// Filters RPF_BATCH own samples from `begin`: out[own][RPF_CARRIED].
+static void filter_batch(const Slot* slot, const Coordinates* coordinates, uint begin, uint own, uint neighbors,
+                         const float2* range, const Trace* trace, __global float* out) {
+  const uint blocks = rpf_blocks(neighbors);
+  float own_value[RPF_BATCH][3 + RPF_FEATURES];
+  Sums sums;
+  load_own(slot, coordinates, begin, own, own_value);
   clear_sums(&sums);
   for (uint block = 0; block < blocks; block += RPF_STRETCH)
     add_stretch(slot, coordinates, own_value, begin, own, neighbors, block, min(block + RPF_STRETCH, blocks), trace,
@@ -131,6 +161,7 @@ static void filter_batch(const Slot* slot, const Coordinates* coordinates, uint 
     for (int c = 0; c < RPF_CARRIED; ++c)
       out[(begin + i) * RPF_CARRIED + c] =
           rpf_filtered(lanes_total(sums.color[i][c]), lanes_total(sums.weight[i]), range[c].x, range[c].y);
+  if (RPF_EXPLAIN) keep_totals(slot, begin, own, &sums);
 }
 
 static void filter_samples(uint own, uint neighbors, const Slot* slot, const Coordinates* coordinates,
