@@ -6,7 +6,7 @@
 
 #include "rpf/image.h"
 
-namespace rpf::cli {
+namespace rpf::report {
 
 /// What the ends of the color map stand for; between them it is logarithmic. Fixed, so that pictures can be compared.
 constexpr double darkest_error = 1e-4, brightest_error = 1;
@@ -20,4 +20,4 @@ Image heat_map(const Image& errors);
 /// The picture with a bar of all colors at its right, the brightest on top, and a tick at each power of ten.
 Image with_legend(const Image& picture);
 
-}  // namespace rpf::cli
+}  // namespace rpf::report

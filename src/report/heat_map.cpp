@@ -1,11 +1,11 @@
-#include "cli/heat_map.h"
+#include "report/heat_map.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "rpf/srgb.h"
 
-namespace rpf::cli {
+namespace rpf::report {
 namespace {
 
 constexpr int gap = 8, bar_width = 16, tick_width = 6;  ///< pixels
@@ -68,4 +68,4 @@ Image with_legend(const Image& picture) {
   return result;
 }
 
-}  // namespace rpf::cli
+}  // namespace rpf::report
