@@ -15,4 +15,11 @@ using PassObserver = std::function<void(Backend&, const Plan&, int pass)>;
 Result run_filter(SampleBuffer samples, const Settings& settings, const Control& control,
                   const PassObserver& before_pass);
 
+/// The tiles of a pass, in their order.
+std::vector<Window> cut_into_tiles(const Plan& plan, int pass, const Control& control, int threads);
+
+/// Means in a fixed order over the pixels, so that the report too does not depend on threads or tiles. Energy and
+/// seconds are the caller's.
+PassReport summarize(const std::vector<PixelStatistics>& statistics, const Frame& frame, const PassPlan& pass);
+
 }  // namespace rpf

@@ -1,7 +1,7 @@
 #include "explain/attribution.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -12,18 +12,14 @@
 namespace rpf {
 namespace {
 
-/// Statistics, not functions, are averaged over pixels: what the lens does differs from pixel to pixel, how much it
-/// does hardly. Standard deviation in pixels.
-constexpr float window_sigma = 2;
 /// The part of all pairs of samples that are close to each other in a group's parameters.
 constexpr double close_pairs = 0.19;
 /// Samples of a pixel that are paired, at most.
 constexpr std::uint32_t most_paired = 16;
 /// Standard errors that are subtracted: what could be chance counts as nothing.
 constexpr float certainty = 1;
-/// The brightest value of the frame, 2^40 (prepare.cpp), becomes 2^20 here: fourth powers are summed.
-constexpr float unit = 0x1p-20F;
-
+/// Between them the caller may stop.
+constexpr int rows_at_once = 16;
 /// The pixel itself and half of those around it: each pair of neighboring pixels once.
 constexpr std::array<std::array<int, 2>, 5> partners = {{{0, 0}, {1, 0}, {0, 1}, {1, 1}, {-1, 1}}};
 
@@ -73,10 +69,17 @@ class Pairing {
     }
   }
 
-  Attribution attribute() {
-    tbb::parallel_for(0, frame_.height, [&](int y) {
-      for (int x = 0; x < frame_.width; ++x) pair_pixel(x, y);
-    });
+  Attribution attribute(int threads, const std::function<void()>& after_rows) {
+    tbb::task_arena arena(threads);
+    for (int begin = 0; begin < frame_.height; begin += rows_at_once) {
+      const int end = std::min(begin + rows_at_once, frame_.height);
+      arena.execute([&] {
+        tbb::parallel_for(begin, end, [&](int y) {
+          for (int x = 0; x < frame_.width; ++x) pair_pixel(x, y);
+        });
+      });
+      after_rows();
+    }
     Attribution result;
     const Plane covariance = mean_product(all_);
     result.variance = mean_product(own_);
@@ -93,7 +96,7 @@ class Pairing {
     std::vector<Color> means(frame_.first_sample.size() - 1);
     for (std::size_t p = 0; p < means.size(); ++p) {
       for (std::uint32_t i = frame_.first_sample[p]; i < frame_.first_sample[p + 1]; ++i)
-        for (std::size_t c = 0; c < 3; ++c) means[p][c] += unit * frame_.record(i)[c];
+        for (std::size_t c = 0; c < 3; ++c) means[p][c] += attribution_unit * frame_.record(i)[c];
       for (float& mean : means[p]) mean /= static_cast<float>(std::max(frame_.samples(p), 1U));
     }
     return means;
@@ -135,7 +138,8 @@ class Pairing {
 
   static float product(const float* a, const Color& mean_a, const float* b, const Color& mean_b) {
     float sum = 0;
-    for (std::size_t c = 0; c < 3; ++c) sum += (unit * a[c] - mean_a[c]) * (unit * b[c] - mean_b[c]);
+    for (std::size_t c = 0; c < 3; ++c)
+      sum += (attribution_unit * a[c] - mean_a[c]) * (attribution_unit * b[c] - mean_b[c]);
     return sum;
   }
 
@@ -150,8 +154,8 @@ class Pairing {
 
   /// Means over the window; 0 where it has no pair.
   Plane mean_product(PairSums& sums) const {
-    blur_plane(sums.product, window_sigma);
-    blur_plane(sums.count, window_sigma);
+    blur_plane(sums.product, attribution_sigma);
+    blur_plane(sums.count, attribution_sigma);
     Plane mean(sums.count.size());
     for (std::size_t p = 0; p < mean.size(); ++p) mean[p] = sums.count[p] > 0 ? sums.product[p] / sums.count[p] : 0;
     return mean;
@@ -161,7 +165,7 @@ class Pairing {
   Plane evident(PairSums& close, const Plane& covariance) const {
     Plane caused = mean_product(close);
     // The standard error of a weighted mean has the squares of the weights: of a Gaussian, a narrower Gaussian.
-    blur_plane(close.squared_product, window_sigma / std::sqrt(2.0F));
+    blur_plane(close.squared_product, attribution_sigma / std::sqrt(2.0F));
     for (std::size_t p = 0; p < caused.size(); ++p) {
       const float error = close.count[p] > 0 ? std::sqrt(close.squared_product[p]) / close.count[p] : 0;
       caused[p] = std::max(caused[p] - covariance[p] - certainty * error, 0.0F);
@@ -202,8 +206,9 @@ float Attribution::explained(std::size_t pixel) const {
   return sum > 0 ? std::min(sum / std::max(variance[pixel], sum), 1.0F) : 0;
 }
 
-Attribution attribute_noise(const Frame& frame, const std::vector<RandomGroup>& groups) {
-  return Pairing(frame, groups).attribute();
+Attribution attribute_noise(const Frame& frame, const std::vector<RandomGroup>& groups, int threads,
+                            const std::function<void()>& after_rows) {
+  return Pairing(frame, groups).attribute(threads, after_rows);
 }
 
 std::uint64_t attribution_bytes(std::uint64_t pixels, std::size_t groups) {

@@ -2,12 +2,20 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "frame.h"
 
 namespace rpf {
+
+/// The brightest value of the frame, 2^40 (prepare.cpp), becomes 2^20 for sums of fourth powers.
+constexpr float attribution_unit = 0x1p-20F;
+/// Statistics are means over the pixels around, weighted by a Gaussian of this standard deviation, pixels: what the
+/// lens does differs from pixel to pixel, how much it does hardly.
+constexpr float attribution_sigma = 2;
 
 /// The components of a group of random parameters: columns of a record.
 struct RandomGroup {
@@ -18,8 +26,8 @@ struct RandomGroup {
 /// In the order of the frame's variables.
 std::vector<RandomGroup> random_groups(const Variables& variables);
 
-/// Variances are those of one sample, summed over R, G and B, as means over the pixels around; scaled radiance squared
-/// times a constant.
+/// Variances are those of one sample, summed over R, G and B, as means over the pixels around; scaled radiance times
+/// attribution_unit, squared.
 struct Attribution {
   std::vector<float> variance;  ///< [pixel] of a sample around its pixel's expectation
   std::vector<std::vector<float>>
@@ -31,7 +39,9 @@ struct Attribution {
   float explained(std::size_t pixel) const;
 };
 
-Attribution attribute_noise(const Frame& frame, const std::vector<RandomGroup>& groups);
+/// `after_rows` is called after some rows of pixels each, and may throw.
+Attribution attribute_noise(const Frame& frame, const std::vector<RandomGroup>& groups, int threads,
+                            const std::function<void()>& after_rows);
 
 /// Peak bytes of attribute_noise().
 std::uint64_t attribution_bytes(std::uint64_t pixels, std::size_t groups);
