@@ -42,11 +42,6 @@ void check_budget(const SampleFileInfo& info, const Settings& settings, bool tel
                     info.path, need_mb, limit_mb));
 }
 
-void print_notes(const Report& report) {
-  for (const InputNote& note : report.notes)
-    remark("rpf: note: {}: {} (first at pixel {},{})\n", note.what, note.count, note.x, note.y);
-}
-
 void print_report(const Report& report) {
   print("backend {}\nrandom parameters: {}\nfeatures: {}\n", report.backend, list(report.random),
         list(report.features));

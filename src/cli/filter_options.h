@@ -22,6 +22,10 @@ struct FilterOptions {
   Settings settings;  ///< the options that need no translation
 };
 
+/// Which features and random parameters to model.
+void add_channel_options(CLI::App& app, FilterOptions& options);
+/// Backend, threads, memory, what is told.
+void add_machine_options(CLI::App& app, FilterOptions& options);
 void add_filter_options(CLI::App& app, FilterOptions& options);
 
 /// What --preset among these arguments names; empty without it.

@@ -40,6 +40,25 @@ std::string data_address(const std::string& file) {
   return fmt::format("data:image/{};base64,{}", png ? "png" : "jpeg", base64(bytes));
 }
 
+std::string html_color(std::uint32_t color) { return fmt::format("#{:06x}", color & 0xffffffU); }
+
+std::string legend_html(const Legend& legend) {
+  if (legend.entries.empty()) return "";
+  std::string html = "<div class=\"legend\">";
+  if (legend.continuous) {
+    std::string colors;
+    for (const Legend::Entry& entry : legend.entries) colors += ", " + html_color(entry.color);
+    html += fmt::format(
+        "<span>{}</span><i class=\"bar\" style=\"background: linear-gradient(90deg{})\"></i><span>{}</span>",
+        escaped(legend.entries.front().text), colors, escaped(legend.entries.back().text));
+  } else {
+    for (const Legend::Entry& entry : legend.entries)
+      html +=
+          fmt::format("<span><i style=\"background: {}\"></i>{}</span>", html_color(entry.color), escaped(entry.text));
+  }
+  return html + "</div>";
+}
+
 /// An SVG file as a part of a page: names get a prefix, since a page may have several plots.
 std::string as_part(const std::string& svg, const std::string& prefix) {
   const auto begin = svg.find("<svg");
@@ -104,8 +123,9 @@ void HtmlPage::table(const Table& table) {
 void HtmlPage::pictures(const std::vector<Picture>& pictures, int least_width) {
   body_ += fmt::format("<div class=\"grid\" style=\"--least: {}px\">\n", least_width);
   for (const Picture& picture : pictures)
-    body_ += fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                         data_address(picture.file), escaped(picture.caption), escaped(picture.caption));
+    body_ += fmt::format("<figure><img src=\"{}\" alt=\"{}\">{}<figcaption>{}</figcaption></figure>\n",
+                         data_address(picture.file), escaped(picture.caption), legend_html(picture.legend),
+                         escaped(picture.caption));
   body_ += "</div>\n";
 }
 

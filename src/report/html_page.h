@@ -1,16 +1,28 @@
 // A page of HTML that carries everything it shows: no file, no network, no script.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace rpf::report {
 
+/// What the colors of a picture mean.
+struct Legend {
+  struct Entry {
+    std::uint32_t color = 0;  ///< 0xRRGGBB in sRGB
+    std::string text;
+  };
+  std::vector<Entry> entries;
+  bool continuous = false;  ///< a bar of all colors, with the texts of the first and the last
+};
+
 /// A picture of a page.
 struct Picture {
   std::string file;     ///< PNG or JPEG; its bytes become part of the page
   std::string caption;  ///< also what is read out in place of the picture
+  Legend legend = {};   ///< above the caption
 };
 
 /// Rows of cells as text. Where the page is narrower, the table scrolls in a box of its own.

@@ -28,6 +28,9 @@ th { vertical-align: bottom }
 .grid { display: grid; gap: 1rem; margin: 1rem 0;
   grid-template-columns: repeat(auto-fill, minmax(min(100%, var(--least)), 1fr)) }
 .grid img { display: block; max-width: 100%; height: auto }
+.legend { display: flex; flex-wrap: wrap; gap: .2rem .8rem; align-items: center; font-size: .8125rem }
+.legend i { display: inline-block; width: .8rem; height: .8rem; margin-right: .35rem; vertical-align: -.1rem }
+.legend .bar { flex: 1 1 4rem; margin: 0 }
 .plot { max-width: 46rem; margin: 1rem 0 }
 .plot svg { display: block; width: 100%; min-width: 26rem; height: auto; background: #ffffff }
 )";

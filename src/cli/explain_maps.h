@@ -1,0 +1,36 @@
+// The layers of an explanation as pictures with legends.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/html_page.h"
+#include "rpf/explain.h"
+
+namespace rpf::cli {
+
+/// One picture: what it is called, how to read it, and what its colors mean.
+struct ExplainMap {
+  std::string name;     ///< of its file, without extension
+  std::string chapter;  ///< of the page that shows it
+  std::string reading;  ///< one sentence
+  Image picture;        ///< R, G, B in linear light
+  report::Legend legend;
+};
+
+/// All of them, chapter by chapter.
+std::vector<ExplainMap> maps_of(const Explanation& explanation);
+
+/// One channel in the colors of magma from `least` to `most`; logarithmic where `least` is above 0.
+struct Scale {
+  double least = 0, most = 1;
+};
+ExplainMap scalar_map(const Image& values, std::size_t channel, const Scale& scale);
+
+/// Column of a channel; there is one.
+std::size_t channel_of(const Image& layers, const std::string& name);
+
+/// Values of a channel in ascending order.
+std::vector<float> sorted_values(const Image& layers, std::size_t channel);
+
+}  // namespace rpf::cli

@@ -1,0 +1,94 @@
+#include "cli/explain_pages.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+
+#include "cli/explain_maps.h"
+#include "report/html_page.h"
+#include "report/picture.h"
+#include "rpf/io.h"
+
+namespace rpf::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string path_in(const std::string& folder, const std::string& file) { return (fs::path(folder) / file).string(); }
+
+std::string list(const std::vector<std::string>& names) {
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
+}
+
+Image density_image(const Image& layers) {
+  Image density = layers;
+  density.channels = {"Y"};
+  density.pixels.clear();
+  const std::size_t channel = channel_of(layers, "density");
+  for (std::size_t p = 0; p < layers.data_window.pixel_count(); ++p) density.pixels.push_back(layers.pixel(p)[channel]);
+  return density;
+}
+
+report::Table settings_table(const std::string& input, const Explanation& explanation) {
+  const Report& report = explanation.report;
+  const PassReport& pass = report.passes.front();
+  return {
+      {"what", "value"},
+      {{"file", fs::path(input).filename().string()},
+       {"pixels", fmt::format("{} x {}", explanation.layers.data_window.width, explanation.layers.data_window.height)},
+       {"random parameters", list(report.random)},
+       {"features", list(report.features)},
+       {"constant, not modeled", list(report.dropped)},
+       {"box width of the pass", fmt::format("{}", pass.box_width)},
+       {"backend", report.backend}},
+      2};
+}
+
+report::Table numbers_table(const Image& layers) {
+  report::Table table{{"layer of explain.exr", "least", "median", "95 %", "largest", "mean"}, {}, 1};
+  for (std::size_t c = 0; c < layers.channel_count(); ++c) {
+    const std::vector<float> values = sorted_values(layers, c);
+    double sum = 0;
+    for (const float value : values) sum += value;
+    const auto at = [&](double part) {
+      return fmt::format("{:.4g}", values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))]);
+    };
+    table.rows.push_back({layers.channels[c], at(0), at(0.5), at(0.95), at(1),
+                          fmt::format("{:.4g}", sum / static_cast<double>(values.size()))});
+  }
+  return table;
+}
+
+}  // namespace
+
+void write_explanation(const std::string& folder, const std::string& input, const Explanation& explanation) {
+  write_image(path_in(folder, "explain.exr"), explanation.layers);
+  write_image(path_in(folder, "density.exr"), density_image(explanation.layers));
+  report::HtmlPage page("What the filter thinks of " + fs::path(input).filename().string());
+  page.paragraph(
+      "One pass of the filter, pixel by pixel. Every picture is a layer of explain.exr beside this page; "
+      "docs/explain.md "
+      "has the formulas and how far to trust them.");
+  page.table(settings_table(input, explanation));
+  std::vector<report::Picture> pictures;
+  const std::vector<ExplainMap> maps = maps_of(explanation);
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const std::string file = path_in(folder, maps[i].name + ".png");
+    write_image(file, report::side_by_side({maps[i].picture}));
+    pictures.push_back({file, maps[i].reading, maps[i].legend});
+    if (i + 1 < maps.size() && maps[i + 1].chapter == maps[i].chapter) continue;
+    page.heading(maps[i].chapter);
+    page.pictures(pictures, 340);
+    pictures.clear();
+  }
+  page.heading("Numbers");
+  page.table(numbers_table(explanation.layers));
+  if (explanation.pixel) {
+    const PixelPosition& at = explanation.pixel->position;
+    page.link(fmt::format("pixel-{}-{}.html", at.x, at.y), fmt::format("Pixel {},{}", at.x, at.y));
+  }
+  page.write(path_in(folder, "index.html"));
+}
+
+}  // namespace rpf::cli
