@@ -13,7 +13,7 @@ namespace rpf {
 namespace {
 
 /// The part of all pairs of samples that are close to each other in a group's parameters.
-constexpr double close_pairs = 0.19;
+constexpr double close_pairs = 0.12;
 /// Samples of a pixel that are paired, at most.
 constexpr std::uint32_t most_paired = 16;
 /// Standard errors that are subtracted: what could be chance counts as nothing.
