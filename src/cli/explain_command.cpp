@@ -56,17 +56,27 @@ void check_budget(const SampleFileInfo& info, const Settings& settings) {
                     static_cast<double>(settings.max_memory) / megabyte));
 }
 
-void make_folder(const std::string& folder) {
+/// The folder to write to; it is made in the end, inside one that exists.
+fs::path folder_of(const Options& o) { return (fs::path(o.filter.output) / "").parent_path(); }
+
+/// Before an hour of work.
+void check_folder(const fs::path& folder) {
+  check_target(((fs::is_directory(folder) ? folder : folder.parent_path()) / "explain.exr").string());
+  if (fs::exists(folder) && !fs::is_directory(folder))
+    throw Error(ErrorKind::output, fmt::format("\"{}\" is a file; name a folder to write to", folder.string()));
+}
+
+void make_folder(const fs::path& folder) {
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder))
-    throw Error(ErrorKind::output, fmt::format("\"{}\" cannot be made: {}; name a folder to write to", folder,
-                                               error ? error.message() : "a file has its name"));
+  fs::create_directory(folder, error);
+  if (error)
+    throw Error(ErrorKind::output,
+                fmt::format("\"{}\" cannot be made: {}; name another folder", folder.string(), error.message()));
 }
 
 void write_pages(const Options& o, const Explanation& explanation) {
   const SignalGuard guard;  // a signal now waits until the files are whole
-  make_folder(o.filter.output);
+  make_folder(folder_of(o));
   if (explanation.pixel) write_pixel_page(o.filter.output, o.filter.input, explanation);
   write_explanation(o.filter.output, o.filter.input, explanation);
 }
@@ -85,7 +95,7 @@ int run(const Options& o) {
   SampleReadOptions read_options = read_options_of(o.filter.map, settings.max_memory);
   const SampleFileInfo info = inspect_samples(o.filter.input, read_options);
   check_budget(info, settings);
-  check_target((fs::path(o.filter.output).parent_path() / "explain.exr").string());
+  check_folder(folder_of(o));
   read_options.slots = needed_layout(info, settings).slots;
   SampleBuffer samples = read_samples(o.filter.input, read_options);
   const Explanation explanation =

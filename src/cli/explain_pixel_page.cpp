@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 
@@ -20,6 +23,8 @@ namespace fs = std::filesystem;
 constexpr int least_picture = 300;  ///< CSS pixels
 constexpr int histogram_cell = 4;   ///< pixels of a cell before side_by_side() enlarges it four times
 constexpr std::size_t listed_neighbors = 20;
+constexpr int dotted_pixel = 17;                                ///< pixels of one that carries a dot; odd
+constexpr std::array<float, 3> dot_color = {1.0F, 0.5F, 0.0F};  ///< orange, in linear light
 
 std::string number(float value) { return fmt::format("{:.4g}", value); }
 
@@ -64,6 +69,39 @@ Image enlarged(const Image& picture, int factor) {
     for (int x = 0; x < result.data_window.width; ++x)
       std::copy_n(picture.pixel(static_cast<std::size_t>(y / factor) * size.width + x / factor),
                   picture.channel_count(), result.pixel(static_cast<std::size_t>(y) * result.data_window.width + x));
+  return result;
+}
+
+Image mean_picture(const Image& layers) {
+  Image frame = layers;
+  frame.channels = {"R", "G", "B"};
+  frame.pixels.clear();
+  for (std::size_t p = 0; p < frame.data_window.pixel_count(); ++p)
+    frame.pixels.insert(frame.pixels.end(), layers.pixel(p), layers.pixel(p) + 3);
+  return frame;
+}
+
+/// The box of the frame with a square in the middle of each pixel, as large as `map` is there.
+Image with_dots(const Image& frame, const Window& box, const Image& map) {
+  Image part = frame;
+  part.data_window = part.display_window = {0, 0, box.width, box.height};
+  part.pixels.clear();
+  for (int y = box.y; y < box.y + box.height; ++y) {
+    const float* row = frame.pixel(static_cast<std::size_t>(y) * frame.data_window.width + box.x);
+    part.pixels.insert(part.pixels.end(), row, row + std::size_t{3} * box.width);
+  }
+  Image result = enlarged(part, dotted_pixel);
+  const float most = largest(map);
+  for (int y = 0; y < result.data_window.height; ++y)
+    for (int x = 0; x < result.data_window.width; ++x) {
+      const float value = map.pixels[static_cast<std::size_t>(y / dotted_pixel) * box.width + x / dotted_pixel];
+      const double side = (dotted_pixel - 1) * std::sqrt(value / std::max(most, 1e-30F));
+      const double off =
+          std::max(std::abs(x % dotted_pixel - dotted_pixel / 2), std::abs(y % dotted_pixel - dotted_pixel / 2));
+      if (value > 0 && off <= side / 2)
+        std::copy(dot_color.begin(), dot_color.end(),
+                  result.pixel(static_cast<std::size_t>(y) * result.data_window.width + x));
+    }
   return result;
 }
 
@@ -115,20 +153,21 @@ class PixelPage {
 
   void add_neighborhood() {
     page_.heading("Its neighborhood");
-    Image frame = explanation_.layers;
-    frame.channels = {"R", "G", "B"};
-    frame.pixels.clear();
-    for (std::size_t p = 0; p < frame.data_window.pixel_count(); ++p)
-      frame.pixels.insert(frame.pixels.end(), explanation_.layers.pixel(p), explanation_.layers.pixel(p) + 3);
-    page_.pictures({{write_picture("box", report::side_by_side({frame}, box_around(explanation_))),
-                     "Where the box lies in the frame, and the plain mean inside it, enlarged."},
-                    box_picture(
-                        "neighbors", [](const ExplainedNeighbor& n) { return n.drawn; },
-                        "Samples of each pixel of the box that are neighbors: drawn, and not rejected."),
-                    box_picture(
-                        "share", [](const ExplainedNeighbor& n) { return n.share; },
-                        "The share of each pixel of the box in the filtered value.")},
-                   least_picture);
+    const Image frame = mean_picture(explanation_.layers);
+    const Window box = box_around(explanation_);
+    const auto drawn = [](const ExplainedNeighbor& n) { return n.drawn; };
+    page_.pictures(
+        {{write_picture("box", report::side_by_side({frame}, box)),
+          "Where the box lies in the frame, and the plain mean inside it, enlarged."},
+         {write_picture("over", report::side_by_side({with_dots(frame, box, box_map(explanation_, drawn))})),
+          "The neighbors over the plain mean: the larger the dot, the more samples of the pixel. Pixels of the "
+          "box without a dot were rejected, or not drawn."},
+         box_picture("neighbors", drawn,
+                     "Samples of each pixel of the box that are neighbors: drawn, and not rejected."),
+         box_picture(
+             "share", [](const ExplainedNeighbor& n) { return n.share; },
+             "The share of each pixel of the box in the filtered value.")},
+        least_picture);
   }
 
   template <class Value>
@@ -151,7 +190,7 @@ class PixelPage {
       plot.curves[0].points.push_back({static_cast<double>(i + 1), sum});
     }
     page_.plot(report::svg_of(plot), "How many samples make the filtered value.");
-    report::Table table{{"largest shares: pixel", "R, G, B of the sample", "times drawn", "share"}, {}, 2};
+    report::Table table{{"largest shares: pixel", "R, G, B of the sample", "times drawn", "share"}, {}, 1};
     for (std::size_t i = 0; i < std::min(listed_neighbors, pixel_.neighbors.size()); ++i) {
       const ExplainedNeighbor& n = pixel_.neighbors[i];
       table.rows.push_back({fmt::format("{},{}", n.pixel.x, n.pixel.y), color_text(n.color), fmt::format("{}", n.drawn),

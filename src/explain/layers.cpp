@@ -46,7 +46,12 @@ Layers::Layers(const PreparedFrame& prepared, const Plan& plan, const std::vecto
       plan_(plan),
       groups_(groups),
       names_(layer_names(plan.variables, groups)),
-      values_((prepared.frame.first_sample.size() - 1) * names_.size()) {}
+      values_((prepared.frame.first_sample.size() - 1) * names_.size()),
+      fraction_random_(channel("W.R")),
+      share_(channel("share.explained") - groups.size()),
+      neighborhood_(channel("neighborhood.size")),
+      noise_(channel("noise.sample")),
+      density_(channel("density")) {}
 
 std::size_t Layers::channel(const std::string& name) const {
   return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
@@ -59,7 +64,7 @@ void Layers::explain_dependencies(const float* information, std::size_t pixel) {
   kernel::rpf_weigh_dependencies(information, static_cast<kernel::uint>(random), static_cast<kernel::uint>(features),
                                  plan_.alpha_factor, plan_.passes[0].growth, &color,
                                  {of_random.data(), of_feature.data(), beta.data()});
-  float* to = &value(pixel, channel("W.R"));
+  float* to = &value(pixel, fraction_random_);
   to = std::copy_n(color.color_fraction_random, 3, to);
   *to++ = color.fraction_random;
   to = std::copy_n(color.alpha, 3, to);
@@ -74,7 +79,7 @@ void Layers::explain_dependencies(const float* information, std::size_t pixel) {
 }
 
 void Layers::add_tile(const Backend& backend, const Window& tile) {
-  const std::size_t pairs = pair_count(plan_.variables), size = channel("neighborhood.size");
+  const std::size_t pairs = pair_count(plan_.variables);
   const float* explained = backend.explained().data();
   for (int y = tile.y; y < tile.y + tile.height; ++y)
     for (int x = tile.x; x < tile.x + tile.width; ++x, explained += pairs + 1) {
@@ -83,9 +88,9 @@ void Layers::add_tile(const Backend& backend, const Window& tile) {
       explain_dependencies(explained, pixel);
       const PixelStatistics& found = backend.statistics()[pixel];
       const auto accepted = static_cast<float>(found.neighbors - prepared_.frame.samples(pixel));
-      value(pixel, size) = static_cast<float>(found.neighbors);
-      value(pixel, size + 1) = found.drawn > 0 ? accepted / static_cast<float>(found.drawn) : 0;
-      value(pixel, size + 2) = explained[pairs];
+      value(pixel, neighborhood_) = static_cast<float>(found.neighbors);
+      value(pixel, neighborhood_ + 1) = found.drawn > 0 ? accepted / static_cast<float>(found.drawn) : 0;
+      value(pixel, neighborhood_ + 2) = explained[pairs];
     }
 }
 
@@ -142,10 +147,10 @@ std::vector<float> Layers::kept_variance(const std::vector<float>& filtered) con
 
 double Layers::estimate_noise(std::size_t pixel, double variance, double kept) {
   const std::uint32_t samples = prepared_.frame.samples(pixel);
-  float* noise = &value(pixel, channel("noise.sample"));
+  float* noise = &value(pixel, noise_);
   noise[0] = static_cast<float>(std::sqrt(variance));
   if (samples == 0) return 0;
-  const double remaining = variance / value(pixel, channel("neighborhood.effective")) + kept / samples;
+  const double remaining = variance / value(pixel, neighborhood_ + 2) + kept / samples;
   double square = 0;
   for (std::size_t c = 3; c < 6; ++c) square += static_cast<double>(value(pixel, c)) * value(pixel, c) / 3;
   const double relative = std::sqrt(remaining / (square + least_square));
@@ -164,18 +169,17 @@ void Layers::suggest_density(const std::vector<double>& relative) {
   const double mean = measured > 0 ? static_cast<double>(prepared_.frame.sample_count()) / measured : 1;
   for (std::size_t pixel = 0; pixel < relative.size(); ++pixel) {
     const bool known = sum > 0 && prepared_.frame.samples(pixel) > 0;
-    value(pixel, channel("density")) = static_cast<float>(known ? mean * measured * relative[pixel] / sum : mean);
+    value(pixel, density_) = static_cast<float>(known ? mean * measured * relative[pixel] / sum : mean);
   }
 }
 
 void Layers::add_noise(const Attribution& attribution, const std::vector<float>& filtered) {
-  const std::size_t share = channel("share.explained") - groups_.size();
   const double unit = static_cast<double>(prepared_.radiance_scale) * attribution_unit;  // of a record's radiance
   const std::vector<float> kept = kept_variance(filtered);
   std::vector<double> relative(kept.size());
   for (std::size_t pixel = 0; pixel < relative.size(); ++pixel) {
-    for (std::size_t g = 0; g < groups_.size(); ++g) value(pixel, share + g) = attribution.share(g, pixel);
-    value(pixel, share + groups_.size()) = attribution.explained(pixel);
+    for (std::size_t g = 0; g < groups_.size(); ++g) value(pixel, share_ + g) = attribution.share(g, pixel);
+    value(pixel, share_ + groups_.size()) = attribution.explained(pixel);
     relative[pixel] =
         estimate_noise(pixel, attribution.variance[pixel] / 3 / unit / unit, kept[pixel] / 3 / unit / unit);
   }

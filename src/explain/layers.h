@@ -45,7 +45,9 @@ class Layers {
   const Plan& plan_;
   const std::vector<RandomGroup>& groups_;
   std::vector<std::string> names_;
-  std::vector<float> values_;
+  std::vector<float> values_;  ///< [pixel][name]
+  // Numbers of the channels where groups of them begin.
+  std::size_t fraction_random_, share_, neighborhood_, noise_, density_;
 };
 
 }  // namespace rpf
