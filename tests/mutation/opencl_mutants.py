@@ -90,4 +90,8 @@ MUTANTS = [
            DOF + "statistics", "pixels are left out"),
     Mutant("cl_statistics", FILTER, "statistics.beta = rpf_mean(weights.beta, RPF_FEATURES);", "statistics.beta = weights.beta[0];",
            DOF + "statistics", "one feature instead of the mean"),
+    Mutant("cl_explained_information", FILTER, "explained[i] = information[i];", "explained[i] = information[0];",
+           "conformance explain/4spp explained", "one pair for all"),
+    Mutant("cl_explained_samples", WEIGHTING, "share += weight[i] * inverse_total[begin + i];", "share += weight[i];",
+           "conformance explain/4spp explained", "own samples with many neighbors count more"),
 ]
