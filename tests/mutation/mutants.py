@@ -14,7 +14,6 @@ PREPARE, DRIVER, RESOLVE = "src/prepare.cpp", "src/driver.cpp", "src/resolve.cpp
 MERGE, RAW_READER, HDR_FLIP = "src/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
 SELECTION, SPIKES, POLISH_TILE = "src/selection.cpp", "src/spikes.cpp", "src/polish_tile.cpp"
 INFORMATION, INFORMATIVE = "src/information.cpp", "src/informative.cpp"
-ATTRIBUTION, LAYERS, TRACED_PIXEL = "src/explain/attribution.cpp", "src/explain/layers.cpp", "src/explain/traced_pixel.cpp"
 SCENE = "src/scene/"
 BOTH = "Profiles/BothProfiles."
 
@@ -385,21 +384,4 @@ MUTANTS = [
            "extremes World.OffsetThatTheInputSurvivesKeepsEveryBit", "normalization: far worlds where own samples miss"),
     Mutant("extremes_stretch", NUMERIC, "#define RPF_STRETCH 32", "#define RPF_STRETCH 100000",
            "extremes Filtered.SumsOf24200WeightsAreWithinOneMillionth", "sums: equal weights are rounded the same way"),
-    # ---------------------------------------------------------------- explain
-    Mutant("explain_all_close", ATTRIBUTION, "if (is_close(groups_[g], distances_[g], a, b)) close_[g]", "close_[g]",
-           "Filter.ExplainFindsTheGroup*", "all pairs count as close"),
-    Mutant("explain_one_component", ATTRIBUTION, "1.0 / static_cast<double>(components)", "1.0",
-           "Filter.ExplainSharesNoise*", "fewer pairs are close in two components than in one"),
-    Mutant("explain_chance", ATTRIBUTION, "certainty = 1;", "certainty = 0;",
-           "Filter.ExplainBlamesNobody*", "what could be chance counts"),
-    Mutant("explain_covariance", ATTRIBUTION, "std::max(caused[p] - covariance[p] - ", "std::max(caused[p] + covariance[p] - ",
-           "Filter.ExplainBlamesNobody*:Filter.ExplainSharesNoise*", "what all pairs have in common counts"),
-    Mutant("explain_noise_unit", LAYERS, "attribution.variance[pixel] / 3 / unit / unit", "attribution.variance[pixel] / unit / unit",
-           "Filter.ExplainKnowsTheStandardError*", "three channels as one"),
-    Mutant("explain_density_sum", LAYERS, "mean * measured * relative[pixel] / sum", "mean * relative[pixel] / sum",
-           "Filter.ExplainSuggests*", "not scaled to the samples there are"),
-    Mutant("explain_repeated_draws", TRACED_PIXEL, "++result[place->second].drawn;", "result[place->second].drawn = 1;",
-           "Filter.ExplainedPixel*", "a sample that was drawn twice counts once"),
-    Mutant("explain_tile", BACKEND, "(y - tile.y) * tile.width + x - tile.x", "(y - tile.y) * tile.width + x",
-           "Filter.ExplainIsTheSame*", "place in the tile"),
 ]

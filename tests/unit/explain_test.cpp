@@ -94,7 +94,7 @@ TEST(Filter, ExplainSharesNoiseAmongGroupsAsTheyCauseIt) {
 
 TEST(Filter, ExplainBlamesNobodyForNoiseOfItsOwn) {
   const Explanation result = explained(scene("noise"));
-  EXPECT_LT(mean(layer(result, "share.explained")), 0.03);
+  EXPECT_LT(mean(layer(result, "share.explained")), test::tolerance::attributed_to_chance);
 }
 
 TEST(Filter, ExplainKnowsTheStandardErrorOfTheMean) {
