@@ -126,12 +126,7 @@ class Run {
   }
 
   void describe(Result& result, const Pixels& pixels) {
-    result.report.backend = backend_->description();
-    result.report.random = plan_.variables.random_names;
-    result.report.features = plan_.variables.feature_names;
-    result.report.dropped = prepared_.dropped;
-    result.report.uninformative = prepared_.uninformative;
-    result.report.notes = prepared_.notes;
+    describe_input(*backend_, plan_, prepared_, result.report);
     geometry_.metadata = provenance(geometry_.metadata, settings_, result.report);
     const std::size_t colors = color_channels(prepared_);
     result.image = image_of(pixels, prepared_, geometry_, 0, colors);
@@ -171,6 +166,15 @@ PassReport summarize(const std::vector<PixelStatistics>& statistics, const Frame
   report.acceptance = drawn > 0 ? accepted / drawn : 0;
   for (double* mean : {&report.neighbors, &report.fraction_random, &report.alpha, &report.beta}) *mean /= n;
   return report;
+}
+
+void describe_input(const Backend& backend, const Plan& plan, const PreparedFrame& prepared, Report& report) {
+  report.backend = backend.description();
+  report.random = plan.variables.random_names;
+  report.features = plan.variables.feature_names;
+  report.dropped = prepared.dropped;
+  report.uninformative = prepared.uninformative;
+  report.notes = prepared.notes;
 }
 
 std::vector<Window> cut_into_tiles(const Plan& plan, int pass, const Control& control, int threads) {

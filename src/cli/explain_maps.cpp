@@ -96,16 +96,18 @@ ExplainMap attribution_map(const Explanation& explanation) {
   return map;
 }
 
-class MapList {
+/// Makes the maps of a chapter and hands them out.
+class MapMaker {
  public:
-  explicit MapList(const Explanation& explanation) : explanation_(explanation), layers_(explanation.layers) {}
+  MapMaker(const Explanation& explanation, const std::function<void(const ExplainMap&)>& use)
+      : explanation_(explanation), layers_(explanation.layers), use_(use) {}
 
   void chapter(const std::string& title) { chapter_ = title; }
   void add(ExplainMap map, const std::string& name, const std::string& reading) {
     map.name = name;
     map.chapter = chapter_;
     map.reading = reading;
-    maps_.push_back(std::move(map));
+    use_(map);
   }
   void add(const std::string& layer, const Scale& scale, const std::string& reading) {
     std::string file = layer;
@@ -179,13 +181,12 @@ class MapList {
       if (channel.rfind("information.", 0) == 0)
         add(channel, up_from_zero(channel), "With " + channel.substr(12) + ", summed over channels and components.");
   }
-  std::vector<ExplainMap> take() { return std::move(maps_); }
 
  private:
   const Explanation& explanation_;
   const Image& layers_;
   std::string chapter_;
-  std::vector<ExplainMap> maps_;
+  const std::function<void(const ExplainMap&)>& use_;
 };
 
 }  // namespace
@@ -217,14 +218,13 @@ ExplainMap scalar_map(const Image& values, std::size_t channel, const Scale& sca
   return map;
 }
 
-std::vector<ExplainMap> maps_of(const Explanation& explanation) {
-  MapList list(explanation);
-  list.add_noise();
-  list.add_frame();
-  list.add_neighborhoods();
-  list.add_dependencies();
-  list.add_information();
-  return list.take();
+void for_each_map(const Explanation& explanation, const std::function<void(const ExplainMap&)>& use) {
+  MapMaker maps(explanation, use);
+  maps.add_noise();
+  maps.add_frame();
+  maps.add_neighborhoods();
+  maps.add_dependencies();
+  maps.add_information();
 }
 
 }  // namespace rpf::cli

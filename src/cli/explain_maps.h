@@ -1,6 +1,7 @@
 // The layers of an explanation as pictures with legends.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,8 @@ struct ExplainMap {
   report::Legend legend;
 };
 
-/// All of them, chapter by chapter.
-std::vector<ExplainMap> maps_of(const Explanation& explanation);
+/// Hands out all of them, chapter by chapter; one at a time, for all together take more memory than the layers.
+void for_each_map(const Explanation& explanation, const std::function<void(const ExplainMap&)>& use);
 
 /// One channel in the colors of magma from `least` to `most`; logarithmic where `least` is above 0.
 struct Scale {

@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int least_picture = 340;  ///< CSS pixels
+
 std::string path_in(const std::string& folder, const std::string& file) { return (fs::path(folder) / file).string(); }
 
 std::string list(const std::vector<std::string>& names) {
@@ -60,6 +62,26 @@ report::Table numbers_table(const Image& layers) {
   return table;
 }
 
+/// Writes the pictures and shows them, each chapter under its heading.
+void add_maps(const std::string& folder, const Explanation& explanation, report::HtmlPage& page) {
+  std::string chapter;
+  std::vector<report::Picture> pictures;
+  const auto end_chapter = [&] {
+    if (pictures.empty()) return;
+    page.heading(chapter);
+    page.pictures(pictures, least_picture);
+    pictures.clear();
+  };
+  for_each_map(explanation, [&](const ExplainMap& map) {
+    if (map.chapter != chapter) end_chapter();
+    chapter = map.chapter;
+    const std::string file = path_in(folder, map.name + ".png");
+    write_image(file, report::side_by_side({map.picture}));
+    pictures.push_back({file, map.reading, map.legend});
+  });
+  end_chapter();
+}
+
 }  // namespace
 
 void write_explanation(const std::string& folder, const std::string& input, const Explanation& explanation) {
@@ -71,17 +93,7 @@ void write_explanation(const std::string& folder, const std::string& input, cons
       "docs/explain.md "
       "has the formulas and how far to trust them.");
   page.table(settings_table(input, explanation));
-  std::vector<report::Picture> pictures;
-  const std::vector<ExplainMap> maps = maps_of(explanation);
-  for (std::size_t i = 0; i < maps.size(); ++i) {
-    const std::string file = path_in(folder, maps[i].name + ".png");
-    write_image(file, report::side_by_side({maps[i].picture}));
-    pictures.push_back({file, maps[i].reading, maps[i].legend});
-    if (i + 1 < maps.size() && maps[i + 1].chapter == maps[i].chapter) continue;
-    page.heading(maps[i].chapter);
-    page.pictures(pictures, 340);
-    pictures.clear();
-  }
+  add_maps(folder, explanation, page);
   page.heading("Numbers");
   page.table(numbers_table(explanation.layers));
   if (explanation.pixel) {

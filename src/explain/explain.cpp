@@ -96,12 +96,7 @@ class Run {
 
   void describe(Explanation& result, const std::vector<RandomGroup>& groups, const ProgressMeter& meter) {
     for (const RandomGroup& group : groups) result.groups.push_back(group.name);
-    result.report.backend = backend_->description();
-    result.report.random = plan_.variables.random_names;
-    result.report.features = plan_.variables.feature_names;
-    result.report.dropped = prepared_.dropped;
-    result.report.uninformative = prepared_.uninformative;
-    result.report.notes = prepared_.notes;
+    describe_input(*backend_, plan_, prepared_, result.report);
     result.report.passes.push_back(summarize(backend_->statistics(), prepared_.frame, plan_.passes[0]));
     result.report.seconds = meter.seconds();
     geometry_.metadata = provenance(geometry_.metadata, settings_, result.report);
