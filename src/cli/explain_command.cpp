@@ -61,8 +61,10 @@ fs::path folder_of(const Options& o) { return (fs::path(o.filter.output) / "").p
 
 /// Before an hour of work.
 void check_folder(const fs::path& folder) {
-  check_target(((fs::is_directory(folder) ? folder : folder.parent_path()) / "explain.exr").string());
-  if (fs::exists(folder) && !fs::is_directory(folder))
+  std::error_code unknown;  // what cannot be looked at cannot be written to either
+  const bool is_there = fs::is_directory(folder, unknown);
+  check_target(((is_there ? folder : folder.parent_path()) / "explain.exr").string());
+  if (!is_there && fs::exists(folder, unknown))
     throw Error(ErrorKind::output, fmt::format("\"{}\" is a file; name a folder to write to", folder.string()));
 }
 

@@ -47,13 +47,7 @@ report::Legend magma_legend(const std::string& least, const std::string& most) {
 }
 
 /// Three channels as red, green and blue.
-Image color_picture(const Image& layers, const std::string& first) {
-  Image picture = blank(layers.data_window);
-  const std::size_t channel = channel_of(layers, first);
-  for (std::size_t p = 0; p < layers.data_window.pixel_count(); ++p)
-    std::copy_n(layers.pixel(p) + channel, 3, picture.pixel(p));
-  return picture;
-}
+Image color_picture(const Image& layers, const std::string& first) { return part_of(layers, first, {"R", "G", "B"}); }
 
 /// Three channels as red, green and blue: `least` has the byte 0, `most` 255.
 Image false_colors(const Image& layers, const std::string& first, const std::array<Scale, 3>& scales) {
@@ -194,6 +188,19 @@ class MapMaker {
 std::size_t channel_of(const Image& layers, const std::string& name) {
   return static_cast<std::size_t>(std::find(layers.channels.begin(), layers.channels.end(), name) -
                                   layers.channels.begin());
+}
+
+Image part_of(const Image& layers, const std::string& first, const std::vector<std::string>& names) {
+  Image part;
+  part.data_window = layers.data_window;
+  part.display_window = layers.display_window;
+  part.metadata = layers.metadata;
+  part.channels = names;
+  const std::size_t channel = channel_of(layers, first);
+  part.pixels.reserve(part.data_window.pixel_count() * names.size());
+  for (std::size_t p = 0; p < part.data_window.pixel_count(); ++p)
+    part.pixels.insert(part.pixels.end(), layers.pixel(p) + channel, layers.pixel(p) + channel + names.size());
+  return part;
 }
 
 std::vector<float> sorted_values(const Image& layers, std::size_t channel) {

@@ -31,6 +31,9 @@ ExplainMap scalar_map(const Image& values, std::size_t channel, const Scale& sca
 /// Column of a channel; there is one.
 std::size_t channel_of(const Image& layers, const std::string& name);
 
+/// So many channels from `first` on, as an image with these names; windows and metadata stay.
+Image part_of(const Image& layers, const std::string& first, const std::vector<std::string>& names);
+
 /// Values of a channel in ascending order.
 std::vector<float> sorted_values(const Image& layers, std::size_t channel);
 

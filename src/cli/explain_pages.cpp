@@ -23,15 +23,6 @@ std::string list(const std::vector<std::string>& names) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
 }
 
-Image density_image(const Image& layers) {
-  Image density = layers;
-  density.channels = {"Y"};
-  density.pixels.clear();
-  const std::size_t channel = channel_of(layers, "density");
-  for (std::size_t p = 0; p < layers.data_window.pixel_count(); ++p) density.pixels.push_back(layers.pixel(p)[channel]);
-  return density;
-}
-
 report::Table settings_table(const std::string& input, const Explanation& explanation) {
   const Report& report = explanation.report;
   const PassReport& pass = report.passes.front();
@@ -86,7 +77,7 @@ void add_maps(const std::string& folder, const Explanation& explanation, report:
 
 void write_explanation(const std::string& folder, const std::string& input, const Explanation& explanation) {
   write_image(path_in(folder, "explain.exr"), explanation.layers);
-  write_image(path_in(folder, "density.exr"), density_image(explanation.layers));
+  write_image(path_in(folder, "density.exr"), part_of(explanation.layers, "density", {"Y"}));
   report::HtmlPage page("What the filter thinks of " + fs::path(input).filename().string());
   page.paragraph(
       "One pass of the filter, pixel by pixel. Every picture is a layer of explain.exr beside this page; "

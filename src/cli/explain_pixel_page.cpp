@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <system_error>
 
 #include "cli/explain_maps.h"
 #include "cli/explain_pages.h"
@@ -72,20 +73,11 @@ Image enlarged(const Image& picture, int factor) {
   return result;
 }
 
-Image mean_picture(const Image& layers) {
-  Image frame = layers;
-  frame.channels = {"R", "G", "B"};
-  frame.pixels.clear();
-  for (std::size_t p = 0; p < frame.data_window.pixel_count(); ++p)
-    frame.pixels.insert(frame.pixels.end(), layers.pixel(p), layers.pixel(p) + 3);
-  return frame;
-}
-
 /// The box of the frame with a square in the middle of each pixel, as large as `map` is there.
 Image with_dots(const Image& frame, const Window& box, const Image& map) {
-  Image part = frame;
+  Image part;
   part.data_window = part.display_window = {0, 0, box.width, box.height};
-  part.pixels.clear();
+  part.channels = frame.channels;
   for (int y = box.y; y < box.y + box.height; ++y) {
     const float* row = frame.pixel(static_cast<std::size_t>(y) * frame.data_window.width + box.x);
     part.pixels.insert(part.pixels.end(), row, row + std::size_t{3} * box.width);
@@ -114,7 +106,8 @@ class PixelPage {
         folder_(folder),
         page_(fmt::format("Pixel {},{} of {}", pixel_.position.x, pixel_.position.y,
                           fs::path(input).filename().string())) {
-    fs::create_directories(fs::path(folder) / name_);
+    std::error_code error;  // writing into it says what is wrong
+    fs::create_directories(fs::path(folder) / name_, error);
   }
 
   std::string write() {
@@ -153,7 +146,7 @@ class PixelPage {
 
   void add_neighborhood() {
     page_.heading("Its neighborhood");
-    const Image frame = mean_picture(explanation_.layers);
+    const Image frame = part_of(explanation_.layers, "R", {"R", "G", "B"});
     const Window box = box_around(explanation_);
     const auto drawn = [](const ExplainedNeighbor& n) { return n.drawn; };
     page_.pictures(

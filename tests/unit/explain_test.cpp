@@ -148,6 +148,25 @@ TEST(Filter, ExplainedPixelAddsUpToItsLayers) {
     EXPECT_EQ(std::accumulate(pair.histogram.begin(), pair.histogram.end(), 0U), drawn) << pair.second;
 }
 
+TEST(Filter, ExplainCountsPixelsAsTheDataWindowDoes) {
+  const SampleBuffer samples = scene("combined", 4, 24, 16);
+  SampleBuffer moved = samples;
+  moved.data_window.x = -7;
+  moved.data_window.y = 3;
+  for (std::size_t i = 0; i < moved.sample_count(); ++i) {
+    test::value_of(moved, i, "film.X") -= 7;
+    test::value_of(moved, i, "film.Y") += 3;
+  }
+  const Explanation here = explained(samples, 9, PixelPosition{5, 6}),
+                    there = explained(moved, 9, PixelPosition{-2, 9});
+  EXPECT_EQ(there.layers.data_window, moved.data_window);
+  EXPECT_EQ(there.pixel->position.x, -2);
+  EXPECT_EQ(there.pixel->position.y, 9);
+  ASSERT_EQ(there.pixel->neighbors.size(), here.pixel->neighbors.size());
+  EXPECT_EQ(there.pixel->neighbors[0].pixel.x, here.pixel->neighbors[0].pixel.x - 7);
+  EXPECT_EQ(there.pixel->neighbors[0].pixel.y, here.pixel->neighbors[0].pixel.y + 3);
+}
+
 TEST(Filter, ExplainIsTheSameForTilesAndThreads) {
   const SampleBuffer samples = scene("combined", 3, 30, 20);
   Settings settings = settings_under_test(9);
