@@ -6,10 +6,6 @@
 #ifndef RPF_PHASES
 #define RPF_PHASES 5
 #endif
-// 1: also what explains a pixel. Only `rpf explain` compiles that.
-#ifndef RPF_EXPLAIN
-#define RPF_EXPLAIN 0
-#endif
 
 #include "frame.cl"
 #include "neighborhood.cl"

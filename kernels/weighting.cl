@@ -1,5 +1,10 @@
 // Sections 6 and 7: the weighted means of a pixel's samples, and the outlier step after them.
 
+// 1: also what explains a pixel. Only `rpf explain` compiles that.
+#ifndef RPF_EXPLAIN
+#define RPF_EXPLAIN 0
+#endif
+
 // Own samples that are filtered together: a neighbor's coordinates are read once for all of them.
 #define RPF_BATCH (RPF_SAMPLES > 0 && RPF_SAMPLES < 4 ? RPF_SAMPLES : 4)
 
