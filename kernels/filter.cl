@@ -6,6 +6,10 @@
 #ifndef RPF_PHASES
 #define RPF_PHASES 5
 #endif
+// 1: also what explains a pixel, which only `rpf explain` asks for.
+#ifndef RPF_EXPLAIN
+#define RPF_EXPLAIN 0
+#endif
 
 // PoCL compiles for the newest processor that its LLVM knows. Where the host has an instruction that counts bits in
 // vectors and says so (RPF_AVX512), all that a pixel takes is compiled for it, in a function of its own.
@@ -66,12 +70,13 @@ typedef struct {
 } Weights;
 
 static void weigh(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot, const Normalization* n,
-                  const Trace* trace, Weights* out) {
+                  const Trace* trace, Weights* out, __global float* explained) {
   const uint measured = min(neighbors, pass->measured);
   float information[RPF_PAIRS];
   measure_dependencies(frame, pass, measured, slot, n, trace, information);
   const rpf_feature_weights feature = {out->feature_fraction_random, out->fraction_feature, out->beta};
   rpf_weigh_dependencies(information, RPF_RANDOM, RPF_FEATURES, pass->alpha_factor, pass->growth, &out->color, feature);
+  for (uint i = 0; RPF_EXPLAIN && i < RPF_PAIRS; ++i) explained[i] = information[i];
   if (!trace->values) return;
   trace->values[trace->at.measured] = (float)measured;
   trace_floats(trace, trace->at.information, information, RPF_PAIRS);
@@ -100,13 +105,14 @@ static uint fill_neighborhood(const Frame* frame, const rpf_pass* pass, uint pix
 
 // Sections 6 and 7 for the pixel whose neighborhood is in the slot.
 static void filter_pixel(const rpf_pass* pass, uint own, uint neighbors, const Slot* slot, const Normalization* n,
-                         const Weights* weights, const Trace* trace, __global float* out) {
+                         const Weights* weights, const Trace* trace, __global float* out, __global float* explained) {
   Means means;
   means.own = own;
   means.neighbors = neighbors;
   means.normalization = n;
   choose_coordinates(pass, &weights->color, weights->beta, &means);
   filter_samples(pass, slot, &means, trace, out);
+  if (RPF_EXPLAIN) explained[RPF_PAIRS] = effective_samples(pass, slot, &means);
   for (uint i = 0; trace->values && i < own * RPF_CARRIED; ++i) trace->values[trace->at.filtered + i] = out[i];
   if (pass->outlier_step) replace_outliers(out, own);
 }
@@ -115,6 +121,7 @@ static void filter_pixel(const rpf_pass* pass, uint own, uint neighbors, const S
 typedef struct {
   __global float* colors;                     // [sample][RPF_CARRIED]
   __global rpf_pixel_statistics* statistics;  // [pixel]
+  __global float* explained;  // of the tile: [pixel][RPF_PAIRS + 1] mutual information, effective samples
 } Output;
 
 // Whole pixels from x, y on; positions in the frame.
@@ -132,6 +139,12 @@ static uint leader_of(const Frame* frame, const rpf_pass* pass, Area block) {
   return RPF_NO_SAMPLE;
 }
 
+// Where a pixel of the tile is explained. Blocks are single pixels then: each measures for itself.
+static __global float* explained_at(const rpf_pass* pass, uint pixel, const Output* output) {
+  const int y = (int)(pixel / (uint)pass->width), x = (int)pixel - y * pass->width;
+  return output->explained + (size_t)((y - pass->tile_y) * pass->tile_width + x - pass->tile_x) * (RPF_PAIRS + 1);
+}
+
 static int is_inside(const rpf_pass* pass, Area area, uint pixel) {
   const int y = (int)(pixel / (uint)pass->width), x = (int)pixel - y * pass->width;
   return x >= area.x && x < area.end_x && y >= area.y && y < area.end_y;
@@ -142,16 +155,17 @@ static void filter_member(const Frame* frame, const rpf_pass* pass, uint pixel, 
                           Weights* weights, Trace* trace, const Output* output) {
   const uint own = samples_of(frame, pass, pixel), first = first_sample_of(frame, pass, pixel);
   rpf_pixel_statistics statistics = {0, 0, 0.0f, 0.0f, 0.0f};
+  __global float* explained = RPF_EXPLAIN ? explained_at(pass, pixel, output) : 0;
   if (own > 0) {
     Normalization n;
     statistics.neighbors = fill_neighborhood(frame, pass, pixel, slot, &n, trace, &statistics.drawn);
-    if (measures) weigh(frame, pass, statistics.neighbors, slot, &n, trace, weights);
+    if (measures) weigh(frame, pass, statistics.neighbors, slot, &n, trace, weights, explained);
     statistics.fraction_random = weights->color.fraction_random;
     statistics.alpha = rpf_mean(weights->color.alpha, 3);
     statistics.beta = rpf_mean(weights->beta, RPF_FEATURES);
     if (RPF_PHASES > 4)
       filter_pixel(pass, own, statistics.neighbors, slot, &n, weights, trace,
-                   output->colors + (size_t)(first - pass->first_sample) * RPF_CARRIED);
+                   output->colors + (size_t)(first - pass->first_sample) * RPF_CARRIED, explained);
   }
   output->statistics[pixel - pass->first_pixel] = statistics;
 }
@@ -169,7 +183,7 @@ __attribute__((noinline)) static void filter_block(const Frame* frame, const rpf
     Normalization n;
     uint drawn;
     const uint neighbors = fill_neighborhood(frame, pass, leader, slot, &n, &none, &drawn);
-    weigh(frame, pass, neighbors, slot, &n, trace, &weights);
+    weigh(frame, pass, neighbors, slot, &n, trace, &weights, 0);
   }
   for (int y = wanted.y; y < wanted.end_y; ++y)
     for (int x = wanted.x; x < wanted.end_x; ++x) {
@@ -208,7 +222,8 @@ __kernel void filter_tile(__global const uint* first_sample, __global const floa
                           __global uint* candidates, __global uint* neighbors, __global float16* records,
                           __global ulong8* planes, __global float16* columns, __global float16* sums,
                           __global float* next_colors, __global rpf_pixel_statistics* statistics,
-                          __global float* trace_values, __global uint* trace_histograms, const rpf_pass pass) {
+                          __global float* explained, __global float* trace_values, __global uint* trace_histograms,
+                          const rpf_pass pass) {
   const Frame frame = {first_sample, chunks, offsets, draws, entropy, rejection_factor, minimum_tolerance};
   Trace trace;
   trace.values = trace_values;
@@ -220,7 +235,7 @@ __kernel void filter_tile(__global const uint* first_sample, __global const floa
                      planes + item * RPF_VARIABLES * rpf_plane_words(pass.capacity) * RPF_BIN_VECTORS,
                      columns + item * RPF_COLUMNS * RPF_STRETCH,
                      sums + item * pass.most_samples * (1 + RPF_CARRIED)};
-  const Output output = {next_colors, statistics};
+  const Output output = {next_colors, statistics, explained};
   const Area tile = {pass.tile_x, pass.tile_y, pass.tile_x + pass.tile_width, pass.tile_y + pass.tile_height};
   const int side = (int)pass.block, first_x = tile.x / side, first_y = tile.y / side;
   const uint across = (uint)((tile.end_x - 1) / side - first_x + 1),

@@ -155,6 +155,12 @@ RPF_INLINE float rpf_filtered(float weighted_sum, float weight_sum, float smalle
   return mean > largest ? largest : mean;
 }
 
+// How many equally weighted samples would average as much noise away as a pixel's mean of filtered samples does: 1 / sum_j
+// v_j^2, where v_j is the share of neighbor j in it. `squares`: sum_j (s v_j)^2.
+RPF_INLINE float rpf_effective_samples(uint samples, float squares) {
+  return (float)samples * (float)samples / squares;
+}
+
 // ---- section 7: outliers --------------------------------------------------------------------------------------------
 
 RPF_INLINE int rpf_is_outlier(float value, float mean, float deviation) {

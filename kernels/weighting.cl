@@ -129,6 +129,30 @@ static void filter_samples(const rpf_pass* pass, const Slot* slot, const Means* 
   }
 }
 
+// After filter_samples(): rpf_effective_samples() of the pixel. All own samples are added up before squares are, hence
+// a way of its own through the neighborhood. Only `rpf explain` asks for it.
+static float effective_samples(const rpf_pass* pass, const Slot* slot, const Means* means) {
+  const uint blocks = rpf_blocks(means->neighbors);
+  float16 squares = 0.0f;
+  for (uint first = 0; first < blocks; first += RPF_STRETCH) {
+    const uint last = min(first + RPF_STRETCH, blocks);
+    fill_columns(pass, slot, means, first, last);
+    for (uint block = first; block < last; ++block) {
+      float16 share = 0.0f;
+      for (uint begin = 0; begin < means->own; begin += RPF_BATCH) {
+        float own[RPF_BATCH][RPF_COORDINATES];
+        float16 weight[RPF_BATCH];
+        load_own(pass, slot, means, begin, own);
+        block_weights(slot, means->count, own, block - first, (int)(means->neighbors - block * RPF_LANES), weight);
+        for (uint i = 0; i < RPF_BATCH && begin + i < means->own; ++i)
+          share += weight[i] * (1.0f / lanes_total(slot->sums[(begin + i) * (1 + RPF_CARRIED)]));
+      }
+      squares += share * share;
+    }
+  }
+  return rpf_effective_samples(means->own, lanes_total(squares));
+}
+
 // Mean (relative to the shift) and standard deviation of one channel of a pixel's filtered samples.
 static float2 channel_moments(__global const float* filtered, uint samples, uint channel, float shift) {
   rpf_lanes sum;

@@ -35,6 +35,10 @@ class Backend {
   virtual std::vector<float>& colors_to_change() = 0;
   /// [pixel], of the latest pass run.
   virtual const std::vector<PixelStatistics>& statistics() const = 0;
+  /// Of the latest tile run where Plan::explain asks for it: for every pixel, row by row, the mutual information of all
+  /// pairs (in the order of PixelTrace::mutual_information), then rpf_effective_samples(). 0 where there are no
+  /// samples.
+  virtual const std::vector<float>& explained() const = 0;
   /// Peak bytes of the backend's own memory beside frame and result, for a frame of so many samples.
   virtual std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const = 0;
   /// All intermediate values of one pixel, from the state before end_pass(). Changes nothing.

@@ -28,30 +28,6 @@ double energy(const Pixels& pixels, const FrameFacts& facts) {
   return sum;
 }
 
-/// Means in a fixed order over the pixels, so that the report too does not depend on threads or tiles.
-PassReport summarize(const std::vector<PixelStatistics>& statistics, const Frame& frame, const PassPlan& pass) {
-  PassReport report;
-  report.box_width = pass.box_width;
-  double pixels = 0, accepted = 0, drawn = 0;
-  for (int y = pass.region.y; y < pass.region.y + pass.region.height; ++y)
-    for (int x = pass.region.x; x < pass.region.x + pass.region.width; ++x) {
-      const std::size_t pixel = static_cast<std::size_t>(y) * frame.width + x;
-      const PixelStatistics& s = statistics[pixel];
-      if (s.neighbors == 0) continue;
-      ++pixels;
-      drawn += s.drawn;
-      accepted += s.neighbors - frame.samples(pixel);
-      report.neighbors += s.neighbors;
-      report.fraction_random += s.fraction_random;
-      report.alpha += s.alpha;
-      report.beta += s.beta;
-    }
-  const double n = std::max(pixels, 1.0);
-  report.acceptance = drawn > 0 ? accepted / drawn : 0;
-  for (double* mean : {&report.neighbors, &report.fraction_random, &report.alpha, &report.beta}) *mean /= n;
-  return report;
-}
-
 /// Cuts a region into tiles of about `pixels` pixels: bands of whole rows, or parts of a row. Inside the region blocks
 /// of pixels that share statistics stay whole, for a part of one costs as much as all of it.
 std::vector<Window> cut(const Window& region, std::size_t pixels, int block) {
@@ -137,9 +113,8 @@ class Run {
   PassReport run_pass(int pass, ProgressMeter& meter) {
     const PassPlan& plan = plan_.passes[static_cast<std::size_t>(pass)];
     const double start = meter.seconds();
-    const std::size_t size = control_.tile_pixels > 0 ? control_.tile_pixels : tile_pixels(plan, threads_);
     meter.add(pass, 0);
-    for (const Window& tile : cut(plan.region, size, plan_.statistics_block)) {
+    for (const Window& tile : cut_into_tiles(plan_, pass, control_, threads_)) {
       backend_->run(pass, tile);
       meter.add(pass, tile.pixel_count());
     }
@@ -151,12 +126,7 @@ class Run {
   }
 
   void describe(Result& result, const Pixels& pixels) {
-    result.report.backend = backend_->description();
-    result.report.random = plan_.variables.random_names;
-    result.report.features = plan_.variables.feature_names;
-    result.report.dropped = prepared_.dropped;
-    result.report.uninformative = prepared_.uninformative;
-    result.report.notes = prepared_.notes;
+    describe_input(*backend_, plan_, prepared_, result.report);
     geometry_.metadata = provenance(geometry_.metadata, settings_, result.report);
     const std::size_t colors = color_channels(prepared_);
     result.image = image_of(pixels, prepared_, geometry_, 0, colors);
@@ -174,6 +144,44 @@ class Run {
 };
 
 }  // namespace
+
+PassReport summarize(const std::vector<PixelStatistics>& statistics, const Frame& frame, const PassPlan& pass) {
+  PassReport report;
+  report.box_width = pass.box_width;
+  double pixels = 0, accepted = 0, drawn = 0;
+  for (int y = pass.region.y; y < pass.region.y + pass.region.height; ++y)
+    for (int x = pass.region.x; x < pass.region.x + pass.region.width; ++x) {
+      const std::size_t pixel = static_cast<std::size_t>(y) * frame.width + x;
+      const PixelStatistics& s = statistics[pixel];
+      if (s.neighbors == 0) continue;
+      ++pixels;
+      drawn += s.drawn;
+      accepted += s.neighbors - frame.samples(pixel);
+      report.neighbors += s.neighbors;
+      report.fraction_random += s.fraction_random;
+      report.alpha += s.alpha;
+      report.beta += s.beta;
+    }
+  const double n = std::max(pixels, 1.0);
+  report.acceptance = drawn > 0 ? accepted / drawn : 0;
+  for (double* mean : {&report.neighbors, &report.fraction_random, &report.alpha, &report.beta}) *mean /= n;
+  return report;
+}
+
+void describe_input(const Backend& backend, const Plan& plan, const PreparedFrame& prepared, Report& report) {
+  report.backend = backend.description();
+  report.random = plan.variables.random_names;
+  report.features = plan.variables.feature_names;
+  report.dropped = prepared.dropped;
+  report.uninformative = prepared.uninformative;
+  report.notes = prepared.notes;
+}
+
+std::vector<Window> cut_into_tiles(const Plan& plan, int pass, const Control& control, int threads) {
+  const PassPlan& p = plan.passes[static_cast<std::size_t>(pass)];
+  const std::size_t pixels = control.tile_pixels > 0 ? control.tile_pixels : tile_pixels(p, threads);
+  return cut(p.region, pixels, plan.statistics_block);
+}
 
 Result run_filter(SampleBuffer samples, const Settings& settings, const Control& control,
                   const PassObserver& before_pass) {

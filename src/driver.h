@@ -15,4 +15,14 @@ using PassObserver = std::function<void(Backend&, const Plan&, int pass)>;
 Result run_filter(SampleBuffer samples, const Settings& settings, const Control& control,
                   const PassObserver& before_pass);
 
+/// The tiles of a pass, in their order.
+std::vector<Window> cut_into_tiles(const Plan& plan, int pass, const Control& control, int threads);
+
+/// What a report says beside the passes: backend, modeled channels, notes about the input.
+void describe_input(const Backend& backend, const Plan& plan, const PreparedFrame& prepared, Report& report);
+
+/// Means in a fixed order over the pixels, so that the report too does not depend on threads or tiles. Energy and
+/// seconds are the caller's.
+PassReport summarize(const std::vector<PixelStatistics>& statistics, const Frame& frame, const PassPlan& pass);
+
 }  // namespace rpf

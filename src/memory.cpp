@@ -62,11 +62,11 @@ std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, 
   return memory_need(size, layout, layout.size() + spare_columns, settings);
 }
 
-void check_memory(const SampleBuffer& samples, const Settings& settings) {
+void check_memory(const SampleBuffer& samples, const Settings& settings, std::uint64_t more) {
   if (settings.max_memory == 0) return;
   const FrameSize size{samples.data_window.pixel_count(), samples.sample_count(), most_samples(samples.first_sample)};
   const std::uint64_t room = samples.values.capacity() / std::max<std::uint64_t>(size.samples, 1);
-  const std::uint64_t need = memory_need(size, samples.layout, room, settings);
+  const std::uint64_t need = memory_need(size, samples.layout, room, settings) + more;
   constexpr double megabyte = 1 << 20;
   if (need > settings.max_memory)
     throw Error(ErrorKind::memory,

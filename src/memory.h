@@ -6,7 +6,8 @@
 
 namespace rpf {
 
-/// Throws Error(memory) with the need and the limit where the run would exceed Settings::max_memory.
-void check_memory(const SampleBuffer& samples, const Settings& settings);
+/// Throws Error(memory) with the need and the limit where the run, with `more` bytes for what else the
+/// caller does, would exceed Settings::max_memory.
+void check_memory(const SampleBuffer& samples, const Settings& settings, std::uint64_t more = 0);
 
 }  // namespace rpf

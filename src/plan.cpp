@@ -10,6 +10,7 @@
 #include "polish.h"
 #include "rpf/error.h"
 #include "spikes.h"
+#include "trace_layout.h"
 
 namespace rpf {
 namespace {
@@ -78,6 +79,11 @@ void plan_regions(Plan& plan, const Window& crop) {
 }
 
 }  // namespace
+
+std::size_t pair_count(const Variables& v) {
+  return kernel::rpf_pairs(static_cast<kernel::uint>(v.random_names.size()),
+                           static_cast<kernel::uint>(v.feature_names.size()));
+}
 
 std::string group_of_variable(const std::string& name) { return name.substr(0, name.find('.')); }
 

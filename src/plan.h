@@ -77,12 +77,16 @@ struct Plan {
   std::uint32_t statistics_samples = most_neighbors;  ///< neighbors that section 5 looks at, at most
   float alpha_factor = 2;
   float noise = 0.02F;
+  bool explain = false;  ///< backends keep explained(); not with shared statistics
   bool outlier_step = false;
   bool spread_spikes = false;
   float polish = 0;  ///< H; 0: no polish
   std::vector<PassPlan> passes;
   Window polished;  ///< pixels to polish, frame coordinates
 };
+
+/// Pairs of variables whose mutual information section 5 measures.
+std::size_t pair_count(const Variables& variables);
 
 /// "N" of the variable "N.X"; group_of() does it for slots, such as "feature.N.X".
 std::string group_of_variable(const std::string& name);

@@ -4,6 +4,7 @@
 #include "rpf/conformance.h"
 #include "rpf/devices.h"
 #include "rpf/error.h"
+#include "rpf/explain.h"
 #include "rpf/filter.h"
 #include "rpf/image.h"
 #include "rpf/io.h"

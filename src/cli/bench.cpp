@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <system_error>
 
-#include "cli/compare_report.h"
 #include "cli/filter_options.h"
 #include "cli/signals.h"
+#include "report/error_json.h"
 #include "rpf/error.h"
 
 namespace rpf::cli {
@@ -96,7 +96,7 @@ Json json_of(const bench::FrameRun& run) {
                               {"neighbors", pass.neighbors},
                               {"acceptance", pass.acceptance},
                               {"wall", pass.seconds}});
-  if (run.error) json["error"] = json_of(*run.error);
+  if (run.error) json["error"] = report::json_of(*run.error);
   return json;
 }
 

@@ -6,9 +6,9 @@
 #include "cli/commands.h"
 #include "cli/compare_report.h"
 #include "cli/filter_options.h"
-#include "cli/heat_map.h"
-#include "cli/picture.h"
 #include "cli/print.h"
+#include "report/heat_map.h"
+#include "report/picture.h"
 #include "rpf/error.h"
 #include "rpf/io.h"
 #include "rpf/metrics.h"
@@ -38,15 +38,15 @@ Comparison compare(const Options& options, const std::vector<Image>& images) {
 Image heat_maps(const std::vector<Image>& images) {
   std::vector<Image> maps;
   for (std::size_t i = 0; i + 1 < images.size(); ++i)
-    maps.push_back(heat_map(relative_error_map(images[i], images.back())));
-  return with_legend(side_by_side(maps));
+    maps.push_back(report::heat_map(relative_error_map(images[i], images.back())));
+  return report::with_legend(report::side_by_side(maps));
 }
 
 /// Counts from the first pixel, while the option counts in the reference's coordinates.
 std::optional<Window> crop_of(const std::string& zoom, const std::vector<Image>& images) {
   const Window& frame = images.back().data_window;
   if (zoom == "none") return std::nullopt;
-  if (zoom.empty()) return worst_crop(relative_error_map(images.front(), images.back()));
+  if (zoom.empty()) return report::worst_crop(relative_error_map(images.front(), images.back()));
   Window crop = window_of("--zoom", zoom);
   const auto inside = [](std::int64_t offset, int length, int limit) {
     return offset >= 0 && offset + length <= limit;
@@ -76,7 +76,7 @@ int run(const Options& options) {
   for (const std::string& file : options.files) images.push_back(read_image(file));
   const Comparison comparison = compare(options, images);
   if (!options.side_by_side.empty())
-    write_image(options.side_by_side, side_by_side(images, crop_of(options.zoom, images)));
+    write_image(options.side_by_side, report::side_by_side(images, crop_of(options.zoom, images)));
   if (!options.diff.empty()) write_image(options.diff, heat_maps(images));
   print("{}", options.json ? json_of(comparison) : table_of(comparison));
   return options.limited && above_limit(comparison, options.max_error) ? exit_above_limit : 0;

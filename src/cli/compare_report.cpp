@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "cli/heat_map.h"
+#include "report/error_json.h"
+#include "report/heat_map.h"
 
 namespace rpf::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr const char* channel_names[3] = {"R", "G", "B"};
 
 std::string error_row(const ComparedImage& image) {
   const ImageError& e = image.error;
@@ -27,22 +26,11 @@ std::string difference_row(const ComparedImage& image) {
 
 Json json_of_image(const ComparedImage& image) {
   Json json{{"image", image.file}};
-  json.update(json_of(image.error));
+  json.update(report::json_of(image.error));
   return json;
 }
 
 }  // namespace
-
-Json json_of(const ImageError& e) {
-  Json json{{"relMSE", e.relmse},    {"MSE", e.mse},   {"energy", e.energy}, {"trimmed_relMSE", e.trimmed_relmse},
-            {"MAE", e.mae},          {"PSNR", e.psnr}, {"SSIM", e.ssim},     {"FLIP", e.flip},
-            {"HDR_FLIP", e.hdr_flip}};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const LargestDifference& d = e.largest[c];
-    json["largest_difference"][channel_names[c]] = {{"difference", d.difference}, {"x", d.x}, {"y", d.y}};
-  }
-  return json;
-}
 
 std::string table_of(const Comparison& comparison) {
   std::string text = fmt::format("{:>12} {:>12} {:>9} {:>12} {:>12} {:>8} {:>8} {:>8} {:>8}  {}\n", "relMSE", "MSE",
@@ -53,7 +41,7 @@ std::string table_of(const Comparison& comparison) {
   if (!comparison.diff.empty())
     text += fmt::format(
         "\n{}: relative squared error, logarithmic from {} (dark) to {} (bright), a tick each factor of 10\n",
-        comparison.diff, darkest_error, brightest_error);
+        comparison.diff, report::darkest_error, report::brightest_error);
   return text;
 }
 
@@ -61,7 +49,8 @@ std::string json_of(const Comparison& comparison) {
   Json json{{"reference", comparison.reference}, {"images", Json::array()}};
   for (const ComparedImage& image : comparison.images) json["images"].push_back(json_of_image(image));
   if (!comparison.diff.empty())
-    json["diff"] = {{"file", comparison.diff}, {"darkest", darkest_error}, {"brightest", brightest_error}};
+    json["diff"] = {
+        {"file", comparison.diff}, {"darkest", report::darkest_error}, {"brightest", report::brightest_error}};
   // A file name need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -1,7 +1,6 @@
 // What `rpf compare` prints.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -21,9 +20,6 @@ struct Comparison {
 };
 
 std::string table_of(const Comparison& comparison);
-
-/// The errors of one image: names and numbers as docs/commands.md lists them.
-nlohmann::ordered_json json_of(const ImageError& error);
 
 /// Names and numbers as docs/commands.md lists them; what is not finite is null.
 std::string json_of(const Comparison& comparison);

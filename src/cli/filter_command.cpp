@@ -46,11 +46,6 @@ void check_budget(const SampleFileInfo& info, const Settings& settings, bool tel
                     info.path, need_mb, limit_mb));
 }
 
-void print_notes(const Report& report) {
-  for (const InputNote& note : report.notes)
-    remark("rpf: note: {}: {} (first at pixel {},{})\n", note.what, note.count, note.x, note.y);
-}
-
 /// What a pass with fixed weights did.
 void print_fixed_weights(const Report& report, Method method) {
   print("backend {}\nmethod: {}\nfeatures: {}\n", report.backend, name_of(method), list(report.features));

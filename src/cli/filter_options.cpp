@@ -94,14 +94,7 @@ void add_model_options(CLI::App& app, FilterOptions& o) {
   app.add_option("--noise", o.settings.noise, "sigma_8^2: 0.02 for very noisy scenes, 0.002 otherwise")
       ->capture_default_str();
   app.add_option("--bins", o.settings.bins, "Histogram bins, odd")->capture_default_str();
-  app.add_option("--features", o.features,
-                 "Groups of features to model, first (all but those of the second hit), or none")
-      ->type_name("LIST")
-      ->default_str("all");
-  app.add_option("--random", o.random,
-                 "Groups of random parameters to model, all, or none; pixel is the position inside the pixel")
-      ->type_name("LIST")
-      ->default_str("lens,time,light where present, with pixel in the thesis profile");
+  add_channel_options(app, o);
   app.add_flag("--drop-uninformative", o.settings.drop_uninformative,
                "Leave out random parameters and features that carry no information");
   app.add_option("--seed", o.settings.seed, "Seed of the neighborhood draws")->capture_default_str();
@@ -137,34 +130,12 @@ void add_step_options(CLI::App& app, FilterOptions& o) {
 
 void add_run_options(CLI::App& app, FilterOptions& o) {
   const std::string group = "Running";
-  app.add_option(
-         "--backend", o.settings.backend,
-         "cpu: the scalar reference; opencl: the same bits, faster; auto: opencl where a device passes its test")
-      ->check(CLI::IsMember(backend_names()))
-      ->envname("RPF_BACKEND")
-      ->capture_default_str()
-      ->group(group);
-  app.add_option("-d,--device", o.settings.device, "OpenCL device: index of `rpf devices` or a part of its name")
-      ->envname("RPF_DEVICE")
-      ->group(group);
   app.add_option("--crop", o.crop, "Filter only this part; its pixels are those of the whole frame")
       ->type_name("WxH+X+Y")
       ->group(group);
-  app.add_option("-t,--threads", o.settings.threads, "Threads; all cores if not given")
-      ->check(CLI::PositiveNumber)
-      ->envname("RPF_NUM_THREADS")
-      ->group(group);
-  app.add_option("--max-memory", o.max_memory_mb, "Memory limit in MB")
-      ->check(CLI::PositiveNumber)
-      ->envname("RPF_MAX_MEMORY_MB")
-      ->group(group);
-  app.add_option("--progress", o.progress, "auto, never, always")
-      ->check(CLI::IsMember({"auto", "never", "always"}))
-      ->capture_default_str()
-      ->group(group);
+  add_machine_options(app, o);
   app.add_flag("--dry-run", o.dry_run, "Check options, files and memory; write nothing")->group(group);
   app.add_flag("-v,--verbose", o.verbose, "Say what every pass did")->group(group);
-  app.add_flag("-q,--quiet", o.quiet, "Only errors")->group(group);
 }
 
 /// What an option among the arguments says, read before they are parsed; empty without it.
@@ -185,6 +156,44 @@ void add_map_option(CLI::App& app, std::vector<std::string>& map) {
   app.add_option("--map", map, "SLOT=CHANNEL: read a slot from a channel of another name; SLOT= leaves the slot out")
       ->type_name("SLOT=CHANNEL")
       ->allow_extra_args(false);
+}
+
+void add_channel_options(CLI::App& app, FilterOptions& o) {
+  app.add_option("--features", o.features,
+                 "Groups of features to model, first (all but those of the second hit), or none")
+      ->type_name("LIST")
+      ->default_str("all");
+  app.add_option("--random", o.random,
+                 "Groups of random parameters to model, all, or none; pixel is the position inside the pixel")
+      ->type_name("LIST")
+      ->default_str("lens,time,light where present, with pixel in the thesis profile");
+}
+
+void add_machine_options(CLI::App& app, FilterOptions& o) {
+  const std::string group = "Running";
+  app.add_option(
+         "--backend", o.settings.backend,
+         "cpu: the scalar reference; opencl: the same bits, faster; auto: opencl where a device passes its test")
+      ->check(CLI::IsMember(backend_names()))
+      ->envname("RPF_BACKEND")
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("-d,--device", o.settings.device, "OpenCL device: index of `rpf devices` or a part of its name")
+      ->envname("RPF_DEVICE")
+      ->group(group);
+  app.add_option("-t,--threads", o.settings.threads, "Threads; all cores if not given")
+      ->check(CLI::PositiveNumber)
+      ->envname("RPF_NUM_THREADS")
+      ->group(group);
+  app.add_option("--max-memory", o.max_memory_mb, "Memory limit in MB")
+      ->check(CLI::PositiveNumber)
+      ->envname("RPF_MAX_MEMORY_MB")
+      ->group(group);
+  app.add_option("--progress", o.progress, "auto, never, always")
+      ->check(CLI::IsMember({"auto", "never", "always"}))
+      ->capture_default_str()
+      ->group(group);
+  app.add_flag("-q,--quiet", o.quiet, "Only errors")->group(group);
 }
 
 void add_filter_options(CLI::App& app, FilterOptions& options) {

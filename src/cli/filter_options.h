@@ -23,6 +23,10 @@ struct FilterOptions {
   Settings settings;  ///< the options that need no translation
 };
 
+/// Which features and random parameters to model.
+void add_channel_options(CLI::App& app, FilterOptions& options);
+/// Backend, threads, memory, what is told.
+void add_machine_options(CLI::App& app, FilterOptions& options);
 void add_filter_options(CLI::App& app, FilterOptions& options);
 
 /// Makes the settings that --method or --preset among the arguments name what the options are where they are not given:

@@ -20,6 +20,7 @@ constexpr const char* footer = R"(Examples:
   rpf info render.samples.exr
   rpf compare before.exr filtered.exr reference.exr --side-by-side picture.png
   rpf merge seed-1.samples.exr seed-2.samples.exr -o both.samples.exr
+  rpf explain render.samples.exr -o explained --pixel 120,80
   rpf convert theirs.exr -o ours.samples.exr
   rpf scene dof -o dof.samples.exr
   rpf bench frames render.samples.exr --set all='--backend opencl' --set small='--backend opencl --boxes 21,11,5'
@@ -36,10 +37,11 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   const Command filter_command = add_filter_command(app, {argv + 1, argv + argc});
   const std::pair<const char*, Command> subcommands[] = {
-      {"info", add_info_command(app)},         {"compare", add_compare_command(app)},
-      {"merge", add_merge_command(app)},       {"convert", add_convert_command(app)},
-      {"scene", add_scene_command(app)},       {"devices", add_devices_command(app)},
-      {"selftest", add_selftest_command(app)}, {"bench", add_bench_command(app)},
+      {"info", add_info_command(app)},       {"compare", add_compare_command(app)},
+      {"merge", add_merge_command(app)},     {"convert", add_convert_command(app)},
+      {"scene", add_scene_command(app)},     {"devices", add_devices_command(app)},
+      {"explain", add_explain_command(app)}, {"selftest", add_selftest_command(app)},
+      {"bench", add_bench_command(app)},
   };
   try {
     app.parse(argc, argv);

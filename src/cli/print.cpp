@@ -35,6 +35,11 @@ void remark_text(const std::string& text) {
   std::fflush(stderr);
 }
 
+void print_notes(const Report& report) {
+  for (const InputNote& note : report.notes)
+    remark("rpf: note: {}: {} (first at pixel {},{})\n", note.what, note.count, note.x, note.y);
+}
+
 void finish_printing() {
   if (!std::cout.flush().good() || std::fflush(stdout) != 0) keep_failure();  // --help goes to std::cout
   if (first_failure == 0 || first_failure == EPIPE) return;

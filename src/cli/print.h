@@ -6,6 +6,8 @@
 
 #include <string>
 
+#include "rpf/filter.h"
+
 namespace rpf::cli {
 
 /// Opens /dev/null for the standard streams that are closed, or else the first files to be opened would take their
@@ -25,6 +27,9 @@ template <class... T>
 void remark(fmt::format_string<T...> format, T&&... values) {
   remark_text(fmt::format(format, std::forward<T>(values)...));
 }
+
+/// What was found in the input.
+void print_notes(const Report& report);
 
 /// Hands over what is still buffered. Throws Error(output) where results were lost; a reader that left early, as in
 /// `rpf info FILE | head -1`, has what it wanted.

@@ -146,6 +146,22 @@ void add_shared_statistics(CaseList& list) {
   list.add("statistics-block/3/crop", c);
 }
 
+/// What `rpf explain` reads from backends: as whole tiles, and in tiles that the device takes in parts.
+void add_explained(CaseList& list) {
+  for (const int samples : {1, 4, CaseList::varying}) {
+    ConformanceCase c = CaseList::basic("combined", samples);
+    c.settings.box_widths = {21};
+    c.explain = true;
+    c.quick = samples == 4;
+    list.add("explain/" + count_name(samples), c);
+  }
+  ConformanceCase c = CaseList::basic("dof", CaseList::varying);
+  c.settings.box_widths = {9};
+  c.explain = true;
+  c.band_rows = 10;
+  list.add("explain/band", c);
+}
+
 void add_settings(CaseList& list) {
   for (const float noise : {1e-12F, 0.0003F, 0.002F, 0.2F, 1e6F})
     list.add(fmt::format("noise/{:g}", noise), [&](Settings& s) { s.noise = noise; });
@@ -207,6 +223,7 @@ std::vector<ConformanceCase> all_conformance_cases() {
   add_world(list);
   add_windows(list);
   add_settings(list);
+  add_explained(list);
   add_extremes(list);
   add_methods(list);
   return std::move(list.cases);

@@ -17,6 +17,7 @@ struct ConformanceCase {
   SceneOptions options;
   Settings settings;
   std::function<void(SampleBuffer&)> change;  ///< done to the samples before they are filtered; may be empty
+  bool explain = false;                       ///< also compare Backend::explained()
   int band_rows = 0;                          ///< rows that the device may hold at once; 0: all
   bool quick = false;                         ///< among the cases of a short test
 };

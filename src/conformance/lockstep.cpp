@@ -26,6 +26,12 @@ SampleBuffer samples_of(const ConformanceCase& c) {
   return samples;
 }
 
+Plan plan_of(const PreparedFrame& prepared, const ConformanceCase& c) {
+  Plan plan = make_plan(prepared.facts, c.settings);
+  plan.explain = c.explain;
+  return plan;
+}
+
 /// Most bytes of a band that holds `rows` rows, wherever they are; 0: no limit.
 std::uint64_t bytes_of_rows(const Frame& frame, const Plan& plan, int rows) {
   std::uint64_t bytes = 0;
@@ -55,7 +61,7 @@ class Lockstep {
  public:
   Lockstep(const ConformanceCase& c, const std::string& device, int threads)
       : prepared_(prepare(samples_of(c), c.settings)),
-        plan_(make_plan(prepared_.facts, c.settings)),
+        plan_(plan_of(prepared_, c)),
         reference_(threads),
         device_({device, threads, bytes_of_rows(prepared_.frame, plan_, c.band_rows)}) {
     reference_.load(prepared_.frame, prepared_.colors, plan_);
@@ -85,14 +91,20 @@ class Lockstep {
   void filter(int pass) {
     const Window& region = plan_.passes[static_cast<std::size_t>(pass)].region;
     const int upper = (region.height + 1) / 3;
+    std::vector<float> explained;
+    const auto run_device = [&](int top, int height) {
+      device_.run(pass, {region.x, top, region.width, height});
+      explained.insert(explained.end(), device_.explained().begin(), device_.explained().end());
+    };
     reference_.run(pass, region);
-    if (upper > 0) device_.run(pass, {region.x, region.y, region.width, upper});
-    device_.run(pass, {region.x, region.y + upper, region.width, region.height - upper});
+    if (upper > 0) run_device(region.y, upper);
+    run_device(region.y + upper, region.height - upper);
     reference_.end_pass();
     device_.end_pass();
     spread(reference_);
     spread(device_);
     comparison_.at(pass, "whole frame");
+    if (plan_.explain) comparison_.values("explained", reference_.explained(), explained);
     comparison_.statistics(reference_.statistics(), device_.statistics());
     comparison_.values("frame colors", reference_.colors(), device_.colors());
   }

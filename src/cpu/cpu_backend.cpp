@@ -106,10 +106,10 @@ void CpuBackend::load(const Frame& frame, std::vector<float> colors, const Plan&
   statistics_.assign(frame.first_sample.size() - 1, {});
 }
 
-void CpuBackend::filter_block(int pass, const Window& block, const Window& wanted, Workspace& w) {
+void CpuBackend::filter_block(int pass, const Window& block, const Window& tile, Workspace& w) {
   const std::optional<std::uint32_t> leader = leader_of(*frame_, block);
   if (!leader) return;
-  const std::vector<std::uint32_t> pixels = pixels_of(*frame_, wanted);
+  const std::vector<std::uint32_t> pixels = pixels_of(*frame_, common(block, tile));
   if (std::find(pixels.begin(), pixels.end(), *leader) == pixels.end()) {
     fill_neighborhood(*frame_, *plan_, pass, *leader, w);
     measure(*plan_, pass, w);
@@ -121,10 +121,21 @@ void CpuBackend::filter_block(int pass, const Window& block, const Window& wante
     filter_pixel(*frame_, *plan_, pass, pixel, colors_, w,
                  next_colors_.data() + frame_->first_sample[pixel] * plan_->carried);
     statistics_[pixel] = summarize(w);
+    if (plan_->explain) keep_explanation(tile, pixel, w);
   }
 }
 
+void CpuBackend::keep_explanation(const Window& tile, std::uint32_t pixel, const Workspace& w) {
+  const int x = static_cast<int>(pixel) % frame_->width, y = static_cast<int>(pixel) / frame_->width;
+  const std::vector<float>& information = w.dependencies.information;
+  const std::size_t place = static_cast<std::size_t>(y - tile.y) * tile.width + x - tile.x;
+  float* to = explained_.data() + place * (information.size() + 1);
+  *std::copy(information.begin(), information.end(), to) =
+      effective_samples(frame_->samples(pixel), w.neighborhood.size(), w.filter);
+}
+
 void CpuBackend::run(int pass, const Window& tile) {
+  if (plan_->explain) explained_.assign(tile.pixel_count() * (pair_count(plan_->variables) + 1), 0.0F);
   tbb::enumerable_thread_specific<Workspace> workspaces;
   const int side = plan_->statistics_block, first_x = tile.x / side, first_y = tile.y / side;
   const int across = (tile.x + tile.width - 1) / side - first_x + 1;
@@ -132,7 +143,7 @@ void CpuBackend::run(int pass, const Window& tile) {
   arena_.execute([&] {
     tbb::parallel_for(0, across * down, [&](int i) {
       const Window block = block_at(*frame_, *plan_, (first_x + i % across) * side, (first_y + i / across) * side);
-      filter_block(pass, block, common(block, tile), workspaces.local());
+      filter_block(pass, block, tile, workspaces.local());
     });
   });
 }

@@ -24,14 +24,17 @@ class CpuBackend : public Backend {
   const std::vector<float>& colors() const override { return colors_; }
   std::vector<float>& colors_to_change() override { return colors_; }
   const std::vector<PixelStatistics>& statistics() const override { return statistics_; }
+  const std::vector<float>& explained() const override { return explained_; }
   std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const override;
   PixelTrace trace(int pass, std::uint32_t pixel) override;
 
   struct Workspace;
 
  private:
-  /// Filters the pixels of a block that are wanted.
-  void filter_block(int pass, const Window& block, const Window& wanted, Workspace& w);
+  /// Filters the pixels of a block that lie in the tile.
+  void filter_block(int pass, const Window& block, const Window& tile, Workspace& w);
+  /// explained() of a pixel of the tile, from what filtering it left in the workspace.
+  void keep_explanation(const Window& tile, std::uint32_t pixel, const Workspace& w);
 
   std::string reason_;
   tbb::global_control limit_;  ///< lets oneTBB have more threads than cores where the caller asks for them
@@ -41,6 +44,7 @@ class CpuBackend : public Backend {
   const Plan* plan_ = nullptr;
   std::vector<float> colors_, next_colors_;  ///< c' and c'': [sample][carried]
   std::vector<PixelStatistics> statistics_;  ///< [pixel]
+  std::vector<float> explained_;             ///< [pixel of the tile][pairs + 1]
 };
 
 }  // namespace rpf

@@ -47,11 +47,6 @@ void for_each_partner_range(const Variables& variables, Body body) {
     body(x, Variables::position, variables.features());
 }
 
-std::size_t pair_count(const Variables& v) {
-  const std::size_t position_and_random = v.features() - Variables::position;
-  return 3 * (v.count() - Variables::position) + v.feature_names.size() * position_and_random;
-}
-
 void fill_bins(const Plan& plan, const Neighborhood& n, std::uint32_t measured, Dependencies& out) {
   const std::size_t variables = plan.variables.count(), bins = 2 * static_cast<std::size_t>(plan.half_bins) + 1;
   out.bins.resize(measured * variables);

@@ -123,6 +123,7 @@ void filter_samples(const Plan& plan, const Neighborhood& n, std::uint32_t own, 
 void average(std::size_t carried, const Neighborhood& n, std::uint32_t own, const std::vector<float>& colors,
              FilterScratch& scratch, float* out, std::vector<float>* weights_out) {
   collect_colors(carried, n, colors, scratch);
+  scratch.inverse_total.resize(own);
   WeightedSums sums, stretch;
   float block[RPF_LANES];
   for (std::uint32_t i = 0; i < own; ++i) {
@@ -137,10 +138,26 @@ void average(std::size_t carried, const Neighborhood& n, std::uint32_t own, cons
       if (next % (RPF_STRETCH * RPF_LANES) == 0 || next >= n.size()) sums.add(stretch);
     }
     const float total = kernel::rpf_lanes_total(&sums.weight);
+    scratch.inverse_total[i] = 1.0F / total;
     for (std::size_t c = 0; c < carried; ++c)
       out[i * carried + c] = kernel::rpf_filtered(kernel::rpf_lanes_total(&sums.colors[c]), total, scratch.smallest[c],
                                                   scratch.largest[c]);
   }
+}
+
+float effective_samples(std::uint32_t own, std::uint32_t neighbors, const FilterScratch& scratch) {
+  kernel::rpf_lanes squares;
+  kernel::rpf_lanes_clear(&squares);
+  float block[RPF_LANES];
+  for (std::uint32_t begin = 0; begin < neighbors; begin += RPF_LANES) {
+    float share[RPF_LANES] = {};
+    for (std::uint32_t i = 0; i < own; ++i) {
+      block_weights(scratch, i, begin, neighbors, block);
+      for (int l = 0; l < RPF_LANES; ++l) share[l] += block[l] * scratch.inverse_total[i];
+    }
+    for (int l = 0; l < RPF_LANES; ++l) squares.lane[l] += share[l] * share[l];
+  }
+  return kernel::rpf_effective_samples(own, kernel::rpf_lanes_total(&squares));
 }
 
 void replace_outliers(float* filtered, std::uint32_t samples, std::size_t carried) {

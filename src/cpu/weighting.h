@@ -13,6 +13,7 @@ struct FilterScratch {
   std::vector<float> coordinates;        ///< [active variable][padded N] values times their distance scale
   std::vector<float> colors;             ///< [carried][padded N] c' of the neighbors
   std::vector<float> smallest, largest;  ///< [carried] over the neighbors
+  std::vector<float> inverse_total;      ///< [s] 1 / sum of the weights of each own sample
   std::size_t active = 0, padded = 0;
 
   /// Makes room for `active` coordinates of so many neighbors, all 0.
@@ -28,6 +29,9 @@ void filter_samples(const Plan& plan, const Neighborhood& n, std::uint32_t own, 
 /// The last step of filter_samples(): the means with the weights that the scratch's coordinates give.
 void average(std::size_t carried, const Neighborhood& n, std::uint32_t own, const std::vector<float>& colors,
              FilterScratch& scratch, float* out, std::vector<float>* weights_out);
+
+/// rpf_effective_samples() of the pixel that filter_samples() filtered last with this scratch.
+float effective_samples(std::uint32_t own, std::uint32_t neighbors, const FilterScratch& scratch);
 
 /// Section 7, in place on the R, G, B of `samples` filtered samples [samples][carried].
 void replace_outliers(float* filtered, std::uint32_t samples, std::size_t carried);

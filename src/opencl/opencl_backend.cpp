@@ -32,9 +32,10 @@ std::string definitions(const Frame& frame, const Plan& plan) {
   const bool uniform = std::uint64_t{most} * (frame.first_sample.size() - 1) == frame.sample_count();
   return fmt::format(
       "-DRPF_VARIABLES={} -DRPF_RANDOM={} -DRPF_FEATURES={} -DRPF_REJECTING={} -DRPF_BINS={} -DRPF_CARRIED={} "
-      "-DRPF_SAMPLES={} -DRPF_MISSING={}",
+      "-DRPF_SAMPLES={} -DRPF_MISSING={}{}",
       plan.variables.count(), plan.variables.random_names.size(), plan.variables.feature_names.size(), plan.rejecting,
-      2 * plan.half_bins + 1, plan.carried, uniform ? most : 0, frame.has_missing ? 1 : 0);
+      2 * plan.half_bins + 1, plan.carried, uniform ? most : 0, frame.has_missing ? 1 : 0,
+      plan.explain ? " -DRPF_EXPLAIN=1" : "");
 }
 
 /// One value a feature, filled up to whole vectors with what rejects nothing.
@@ -204,6 +205,7 @@ std::vector<cl::Buffer> OpenClBackend::buffers(int pass, const Band& band, const
           scratch_->sums,
           results.next_colors,
           results.statistics,
+          results.explained,
           results.trace_values,
           results.trace_histograms};
 }
@@ -215,7 +217,20 @@ void OpenClBackend::launch(int pass, const Window& tile, const Band& band, std::
   session_.launch(kernel_, items, 1);
 }
 
+std::size_t OpenClBackend::explained_floats(const Window& tile) const {
+  return tile.pixel_count() * (pair_count(plan_->variables) + 1);
+}
+
+cl::Buffer OpenClBackend::explanation_buffer(const Window& tile) {
+  return plan_->explain ? session_.copy(std::vector<float>(explained_floats(tile), 0.0F)) : cl::Buffer();
+}
+
 void OpenClBackend::run(int pass, const Window& tile) {
+  explained_.clear();
+  run_part(pass, tile);
+}
+
+void OpenClBackend::run_part(int pass, const Window& tile) {
   const Rows needed = rows_read(*plan_, pass, tile);
   if (!fits(*frame_, SampleFloats(*plan_), needed, band_limit())) {
     run_halves(pass, tile);
@@ -223,8 +238,13 @@ void OpenClBackend::run(int pass, const Window& tile) {
   }
   on_device("filtering", [&] {
     const Band& band = band_for(pass, needed);
-    launch(pass, tile, band, items_, {band.next_colors, band.statistics, {}, {}});
+    const cl::Buffer explained = explanation_buffer(tile);
+    launch(pass, tile, band, items_, {band.next_colors, band.statistics, explained, {}, {}});
     collect(tile, band);
+    if (!plan_->explain) return;
+    const std::vector<float> part = session_.read<float>(explained, 0, explained_floats(tile));
+    explained_.insert(explained_.end(), part.begin(),
+                      part.end());  // halves of a tile are whole rows, one after another
   });
 }
 
@@ -235,8 +255,8 @@ void OpenClBackend::run_halves(int pass, const Window& tile) {
                             "leave channels out with --features, or use --backend=cpu",
                             plan_->passes[static_cast<std::size_t>(pass)].box_width));
   const int upper = tile.height / 2;
-  run(pass, {tile.x, tile.y, tile.width, upper});
-  run(pass, {tile.x, tile.y + upper, tile.width, tile.height - upper});
+  run_part(pass, {tile.x, tile.y, tile.width, upper});
+  run_part(pass, {tile.x, tile.y + upper, tile.width, tile.height - upper});
 }
 
 void OpenClBackend::collect(const Window& tile, const Band& band) {
@@ -269,7 +289,8 @@ PixelTrace OpenClBackend::trace(int pass, std::uint32_t pixel) {
     // The kernel finds a pixel's place in the band; these stand in for the band's, so that nothing changes.
     const cl::Buffer next_colors = session_.buffer(band.next_colors.getInfo<CL_MEM_SIZE>());
     const cl::Buffer statistics = session_.buffer(band.statistics.getInfo<CL_MEM_SIZE>());
-    launch(pass, tile, band, 1, {next_colors, statistics, reader.values(), reader.histograms()});
+    launch(pass, tile, band, 1,
+           {next_colors, statistics, explanation_buffer(tile), reader.values(), reader.histograms()});
     const std::size_t own = (frame_->first_sample[pixel] - band.first_sample) * plan_->carried;
     const auto found = session_.read<PixelStatistics>(statistics, pixel - band.first_pixel, 1).front();
     return reader.read(*scratch_, found.neighbors, session_.read<float>(next_colors, own, reader.colors()));

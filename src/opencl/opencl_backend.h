@@ -28,6 +28,7 @@ class OpenClBackend : public Backend {
   const std::vector<float>& colors() const override { return colors_; }
   std::vector<float>& colors_to_change() override { return colors_; }  // no band has a copy of them then
   const std::vector<PixelStatistics>& statistics() const override { return statistics_; }
+  const std::vector<float>& explained() const override { return explained_; }
   std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const override;
   PixelTrace trace(int pass, std::uint32_t pixel) override;
 
@@ -40,7 +41,7 @@ class OpenClBackend : public Backend {
 
   /// What a launch writes. Without a trace its buffers are null.
   struct Results {
-    cl::Buffer next_colors, statistics, trace_values, trace_histograms;
+    cl::Buffer next_colors, statistics, explained, trace_values, trace_histograms;
   };
 
   const PassTables& tables(int pass);
@@ -51,7 +52,12 @@ class OpenClBackend : public Backend {
   /// The arguments of filter_tile or filter_box, without the last one.
   std::vector<cl::Buffer> buffers(int pass, const Band& band, const Results& results);
   kernel::rpf_pass arguments(int pass, const Window& tile, const Band& band) const;
+  std::size_t explained_floats(const Window& tile) const;
+  /// What the pixels of a tile are explained in, zeros; null where the plan does not ask for it.
+  cl::Buffer explanation_buffer(const Window& tile);
   void launch(int pass, const Window& tile, const Band& band, std::size_t items, const Results& results);
+  /// run() of a tile or, where it reads more rows than the device can hold, of its halves.
+  void run_part(int pass, const Window& tile);
   void run_halves(int pass, const Window& tile);
   /// Makes what a launch wrote for a tile visible in next_colors_ and statistics_.
   void collect(const Window& tile, const Band& band);
@@ -64,6 +70,7 @@ class OpenClBackend : public Backend {
   const Plan* plan_ = nullptr;
   std::vector<float> colors_, next_colors_;  ///< c' and c'': [sample][carried]
   std::vector<PixelStatistics> statistics_;  ///< [pixel]
+  std::vector<float> explained_;             ///< [pixel of the tile][pairs + 1]
 
   cl::Kernel kernel_, layout_kernel_;
   cl::Buffer rejection_factor_, minimum_tolerance_, centers_;

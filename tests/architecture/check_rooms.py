@@ -14,22 +14,24 @@ ROOMS = {
     "src/cpu": API | {"src", "kernels"},
     "src/opencl": API | {"src", "kernels"},
     "src/conformance": API | {"src", "src/cpu", "src/opencl", "kernels"},
+    "src/explain": API | {"src", "kernels"},
     "src/io": API,
     "src/images": API | {"src/io"},           # a library of its own; src/io loads it
     "src/metrics": API,
     "src/scene": API,
     "src/bench": API,
-    "src/cli": API | {"src/bench"},
+    "src/report": API | {"src/io", "src/bench"},  # files that are whole or untouched; gnuplot as a program
+    "src/cli": API | {"src/bench", "src/report"},
     "examples": API,
     "bench": API | {"src", "src/cpu", "src/opencl", "src/bench", "kernels"},
-    "tests": API | {"src", "src/cpu", "src/opencl", "src/conformance", "src/io", "src/metrics", "src/scene", "src/bench", "kernels"},
+    "tests": API | {"src", "src/cpu", "src/opencl", "src/conformance", "src/explain", "src/io", "src/metrics", "src/scene", "src/bench", "src/report", "kernels"},
 }
 # Third-party headers, each in one room only (beside the tests).
 LIBRARIES = {
     "OpenEXR/": {"src/io"}, "Imf": {"src/io"}, "libdeflate": {"src/io"}, "OpenImageIO/": {"src/images"}, "CL/": {"src/opencl"}, "CLI/": {"src/cli"},
-    "embree3/": {"src/scene"}, "tbb/": {"src", "src/cpu", "src/scene"}, "benchmark/": {"bench"},
-    "fmt/": {"src", "src/opencl", "src/conformance", "src/io", "src/images", "src/metrics", "src/scene", "src/cli", "src/bench"},
-    "nlohmann/": {"src/cli", "src/io", "src/conformance", "src/bench"},  # what is printed as JSON; the header of raw sample files
+    "embree3/": {"src/scene"}, "tbb/": {"src", "src/cpu", "src/explain", "src/scene"}, "benchmark/": {"bench"},
+    "fmt/": {"src", "src/opencl", "src/conformance", "src/explain", "src/io", "src/images", "src/metrics", "src/scene", "src/cli", "src/bench", "src/report"},
+    "nlohmann/": {"src/cli", "src/io", "src/conformance", "src/bench", "src/report"},  # what is printed as JSON; the header of raw sample files
 }
 # The one place that knows all backends.
 EXCEPTIONS = {("src/backends.cpp", "src/cpu"), ("src/backends.cpp", "src/opencl")}

@@ -7,6 +7,7 @@ from mutants import Mutant
 
 NUMERIC = "kernels/numeric.h"
 NEIGHBORHOOD, STATISTICS = "kernels/neighborhood.cl", "kernels/statistics.cl"
+COORDINATES = "kernels/coordinates.cl"
 WEIGHTING, FILTER = "kernels/weighting.cl", "kernels/filter.cl"
 DOF, PAPER = "conformance scene/dof/thesis ", "conformance scene/dof/paper "
 
@@ -77,7 +78,7 @@ MUTANTS = [
     # ---------------------------------------------------------------- 6., 7. filter and outliers
     Mutant("cl_distance", WEIGHTING, "distance[i] += difference * difference;", "distance[i] += fabs(difference);",
            DOF + "weights", "distance is not squared"),
-    Mutant("cl_batch", WEIGHTING, "min(begin + i, means->own - 1)", "min(i, means->own - 1)",
+    Mutant("cl_batch", COORDINATES, "min(begin + i, means->own - 1)", "min(i, means->own - 1)",
            "conformance samples/dof/8spp weights", "the second four samples are the first"),
     Mutant("cl_weight_mask", WEIGHTING, "is_neighbor ? rpf_weight(distance[i]) : 0.0f", "rpf_weight(distance[i])",
            "conformance max-samples/17 filtered", "what is no neighbor has a weight"),
@@ -90,4 +91,8 @@ MUTANTS = [
            DOF + "statistics", "pixels are left out"),
     Mutant("cl_statistics", FILTER, "statistics.beta = rpf_mean(weights->beta, RPF_FEATURES);", "statistics.beta = weights->beta[0];",
            DOF + "statistics", "one feature instead of the mean"),
+    Mutant("cl_explained_information", FILTER, "explained[i] = information[i];", "explained[i] = information[0];",
+           "conformance explain/4spp explained", "one pair for all"),
+    Mutant("cl_explained_samples", WEIGHTING, "share += weight[i] * (1.0f / lanes_total(slot->sums[(begin + i) * (1 + RPF_CARRIED)]));", "share += weight[i];",
+           "conformance explain/4spp explained", "own samples with many neighbors count more"),
 ]

@@ -1,9 +1,9 @@
-#include "cli/picture.h"
+#include "report/picture.h"
 
 #include <algorithm>
 #include <array>
 
-namespace rpf::cli {
+namespace rpf::report {
 namespace {
 
 constexpr int gap = 8;
@@ -105,4 +105,4 @@ Image side_by_side(const std::vector<Image>& images, const std::optional<Window>
   return result;
 }
 
-}  // namespace rpf::cli
+}  // namespace rpf::report

@@ -1,27 +1,17 @@
-#include "cli/heat_map.h"
+#include "report/heat_map.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "rpf/srgb.h"
 
-namespace rpf::cli {
+namespace rpf::report {
 namespace {
 
 constexpr int gap = 8, bar_width = 16, tick_width = 6;  ///< pixels
 const double decades = std::log10(brightest_error / darkest_error);
 
 using Color = std::array<float, 3>;
-
-/// Linear light of the color at `position`, 0 dark to 1 bright; writing the picture makes sRGB of it again.
-Color color_at(double position) {
-  const double inside = position < 1 ? std::max(position, 0.0) : 1.0;  // NaN: 1
-  const std::uint32_t rgb = magma[static_cast<std::size_t>(std::lround(inside * 255))];
-  Color color;
-  for (unsigned c = 0; c < 3; ++c)
-    color[c] = static_cast<float>(srgb_decode(static_cast<double>(rgb >> (16 - 8 * c) & 0xffU) / 255));
-  return color;
-}
 
 Image blank(int width, int height) {
   Image image;
@@ -47,6 +37,15 @@ void draw_bar(Image& image, int left) {
 
 }  // namespace
 
+std::array<float, 3> color_at(double position) {
+  const double inside = position < 1 ? std::max(position, 0.0) : 1.0;  // NaN: 1
+  const std::uint32_t rgb = magma[static_cast<std::size_t>(std::lround(inside * 255))];
+  Color color;
+  for (unsigned c = 0; c < 3; ++c)
+    color[c] = static_cast<float>(srgb_decode(static_cast<double>(rgb >> (16 - 8 * c) & 0xffU) / 255));
+  return color;
+}
+
 Image heat_map(const Image& errors) {
   Image picture = blank(errors.data_window.width, errors.data_window.height);
   for (std::size_t p = 0; p < errors.pixels.size(); ++p) {
@@ -68,4 +67,4 @@ Image with_legend(const Image& picture) {
   return result;
 }
 
-}  // namespace rpf::cli
+}  // namespace rpf::report

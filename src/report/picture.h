@@ -5,7 +5,7 @@
 
 #include "rpf/image.h"
 
-namespace rpf::cli {
+namespace rpf::report {
 
 /// R, G and B of images of equal size in a row, with gaps of white pixels: small ones enlarged by whole pixels, large
 /// ones averaged over squares of whole pixels, so that the row is not much wider than 4,000 pixels. With a crop, it is
@@ -18,4 +18,4 @@ Image side_by_side(const std::vector<Image>& images, const std::optional<Window>
 /// firefly would decide; NaN counts 1.
 Window worst_crop(const Image& errors);
 
-}  // namespace rpf::cli
+}  // namespace rpf::report

@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "cli/picture.h"
+#include "report/picture.h"
 
-namespace rpf::cli {
+namespace rpf::report {
 namespace {
 
 constexpr int share = 4;  ///< of the image's width and height
@@ -41,4 +41,4 @@ Window worst_crop(const Image& errors) {
   return crop;
 }
 
-}  // namespace rpf::cli
+}  // namespace rpf::report

@@ -1,8 +1,8 @@
 // The color map "magma" by Stefan van der Walt and Nathaniel Smith: perceptually uniform, dark to bright, readable in
 // gray and with color blindness. Public domain (CC0). Data: matplotlib's table, 256 entries, each rounded to a byte.
-#include "cli/heat_map.h"
+#include "report/heat_map.h"
 
-namespace rpf::cli {
+namespace rpf::report {
 
 // clang-format off
 const std::array<std::uint32_t, 256> magma{
@@ -41,4 +41,4 @@ const std::array<std::uint32_t, 256> magma{
 };
 // clang-format on
 
-}  // namespace rpf::cli
+}  // namespace rpf::report

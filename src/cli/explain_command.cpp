@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "cli/commands.h"
+#include "cli/environment.h"
+#include "cli/explain_pages.h"
+#include "cli/filter_options.h"
+#include "cli/needs.h"
+#include "cli/print.h"
+#include "cli/progress_bar.h"
+#include "cli/signals.h"
+#include "report/plot.h"
+#include "rpf/error.h"
+#include "rpf/explain.h"
+
+namespace rpf::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  FilterOptions filter;  ///< those that this command shares with filtering
+  std::string pixel;
+  int box = 0;
+};
+
+PixelPosition pixel_of(const std::string& text) {
+  PixelPosition pixel;
+  int used = 0;
+  const bool parsed = std::sscanf(text.c_str(), "%d,%d%n", &pixel.x, &pixel.y, &used) == 2;
+  if (!parsed || used != static_cast<int>(text.size()))
+    throw Error(ErrorKind::usage, fmt::format("--pixel {}: X,Y is expected, such as 120,80", text));
+  return pixel;
+}
+
+Settings settings_of(const Options& o) {
+  Settings settings = settings_of(o.filter);
+  if (o.box > 0) settings.box_widths = {o.box};
+  return settings;
+}
+
+/// Needs more than the limit: refused before anything is read.
+void check_budget(const SampleFileInfo& info, const Settings& settings) {
+  constexpr double megabyte = 1 << 20;
+  const FrameSize size{info.data_window.pixel_count(), info.sample_count, info.max_samples};
+  const auto need = predict_explain_memory(size, needed_layout(info, settings), settings);
+  if (need > settings.max_memory)
+    throw Error(
+        ErrorKind::memory,
+        fmt::format("{}: explaining needs {:.0f} MB, the limit is {:.0f} MB; raise --max-memory, lower --threads "
+                    "or leave channels out with --features and --random",
+                    info.path, static_cast<double>(need) / megabyte,
+                    static_cast<double>(settings.max_memory) / megabyte));
+}
+
+/// The folder to write to; it is made in the end, inside one that exists.
+fs::path folder_of(const Options& o) { return (fs::path(o.filter.output) / "").parent_path(); }
+
+/// Before an hour of work.
+void check_folder(const fs::path& folder) {
+  std::error_code unknown;  // what cannot be looked at cannot be written to either
+  const bool is_there = fs::is_directory(folder, unknown);
+  check_target(((is_there ? folder : folder.parent_path()) / "explain.exr").string());
+  if (!is_there && fs::exists(folder, unknown))
+    throw Error(ErrorKind::output, fmt::format("\"{}\" is a file; name a folder to write to", folder.string()));
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directory(folder, error);
+  if (error)
+    throw Error(ErrorKind::output,
+                fmt::format("\"{}\" cannot be made: {}; name another folder", folder.string(), error.message()));
+}
+
+void write_pages(const Options& o, const Explanation& explanation) {
+  const SignalGuard guard;  // a signal now waits until the files are whole
+  make_folder(folder_of(o));
+  if (explanation.pixel) write_pixel_page(o.filter.output, o.filter.input, explanation);
+  write_explanation(o.filter.output, o.filter.input, explanation);
+}
+
+int run(const Options& o) {
+  if (o.filter.input.empty() || o.filter.output.empty())
+    throw Error(ErrorKind::usage,
+                "explain: a sample file and a folder are expected, as in rpf explain "
+                "render.samples.exr -o explained");
+  const Settings settings = settings_of(o);
+  std::optional<PixelPosition> pixel;
+  if (!o.pixel.empty()) {
+    pixel = pixel_of(o.pixel);
+    report::check_plotting();
+  }
+  SampleReadOptions read_options = read_options_of(o.filter.map, settings.max_memory);
+  const SampleFileInfo info = inspect_samples(o.filter.input, read_options);
+  check_budget(info, settings);
+  check_folder(folder_of(o));
+  read_options.slots = needed_layout(info, settings).slots;
+  SampleBuffer samples = read_samples(o.filter.input, read_options);
+  const Explanation explanation =
+      with_progress(o.filter.quiet ? "never" : o.filter.progress,
+                    [&](const Control& control) { return explain(std::move(samples), settings, control, pixel); });
+  write_pages(o, explanation);
+  if (!o.filter.quiet) print_notes(explanation.report);
+  if (!o.filter.quiet)
+    print("{}: {} layers of {}x{} pixels in {:.1f} s\n", (fs::path(o.filter.output) / "index.html").string(),
+          explanation.layers.channel_count(), info.data_window.width, info.data_window.height,
+          explanation.report.seconds);
+  return received_signal() == 0 ? 0 : 128 + received_signal();
+}
+
+}  // namespace
+
+Command add_explain_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("explain", "Show what the filter thinks of a frame, or of one pixel");
+  options->filter.settings = explain_settings();
+  options->filter.profile = "paper";
+  command->add_option("-i,--input,INPUT", options->filter.input, "Sample file (deep OpenEXR or raw floats)")
+      ->type_name("FILE");
+  command->add_option("-o,--output", options->filter.output, "Folder for explain.exr, pictures and index.html")
+      ->type_name("DIR");
+  command->add_option("--pixel", options->pixel, "Also a page with everything about this pixel")->type_name("X,Y");
+  command->add_option("--box", options->box, "Box width of the pass that is explained")
+      ->check(CLI::PositiveNumber)
+      ->default_str("21");
+  add_map_option(*command, options->filter.map);
+  add_channel_options(*command, options->filter);
+  add_machine_options(*command, options->filter);
+  return [options] { return run(*options); };
+}
+
+}  // namespace rpf::cli

@@ -1,0 +1,144 @@
+#include "rpf/explain.h"
+
+#include <fmt/format.h>
+
+#include "driver.h"
+#include "explain/attribution.h"
+#include "explain/layers.h"
+#include "explain/traced_pixel.h"
+#include "informative.h"
+#include "memory.h"
+#include "progress_meter.h"
+#include "provenance.h"
+#include "resolve.h"
+#include "rpf/error.h"
+
+namespace rpf {
+namespace {
+
+constexpr int explained_box = 21;
+
+void check(const Settings& settings) {
+  validate(settings);
+  const auto refuse = [](const std::string& what) { throw Error(ErrorKind::usage, "explain: " + what); };
+  if (settings.box_widths.size() != 1)
+    refuse(
+        fmt::format("{} box widths; exactly one is expected, that of the pass to explain", settings.box_widths.size()));
+  if (settings.statistics_block != 1) refuse("statistics shared by a block of pixels; 1 is expected");
+  if (settings.crop) refuse("a crop; the whole frame is explained");
+}
+
+std::uint32_t pixel_number(const PixelPosition& pixel, const SampleBuffer& samples) {
+  const Window& w = samples.data_window;
+  const std::int64_t x = std::int64_t{pixel.x} - w.x, y = std::int64_t{pixel.y} - w.y;
+  if (x < 0 || y < 0 || x >= w.width || y >= w.height)
+    throw Error(ErrorKind::usage, fmt::format("pixel {},{} is not inside the data window {}x{}{:+}{:+}", pixel.x,
+                                              pixel.y, w.width, w.height, w.x, w.y));
+  const auto number = static_cast<std::uint32_t>(y * w.width + x);
+  if (samples.first_sample[number] == samples.first_sample[number + 1])
+    throw Error(ErrorKind::input, fmt::format("pixel {},{} has no samples; choose another", pixel.x, pixel.y));
+  return number;
+}
+
+/// Bytes beside those of filtering, each random parameter being a group of its own.
+std::uint64_t extra_bytes(std::uint64_t pixels, const SampleLayout& layout, const Settings& settings) {
+  const Selection selection = select_channels(layout, settings);
+  return pixels * sizeof(float) * Layers::count(selection.features.size(), selection.random.size()) +
+         attribution_bytes(pixels, selection.random.size());
+}
+
+/// One run: frame, plan and backend together.
+class Run {
+ public:
+  Run(SampleBuffer samples, const Settings& settings, const Control& control, const std::optional<PixelPosition>& pixel)
+      : settings_(settings), control_(control), threads_(thread_count(settings)) {
+    samples.validate();
+    check(settings);
+    if (pixel) traced_ = pixel_number(*pixel, samples);
+    geometry_.data_window = samples.data_window;
+    geometry_.display_window = samples.display_window;
+    geometry_.metadata = samples.metadata;
+    check_memory(samples, settings, extra_bytes(samples.data_window.pixel_count(), samples.layout, settings));
+    backend_ = make_backend(settings);
+    prepared_ = prepare(std::move(samples), settings);
+    if (settings.drop_uninformative) drop_uninformative(prepared_, settings);
+    plan_ = make_plan(prepared_.facts, settings);
+    plan_.explain = true;
+    plan_.outlier_step = false;  // it would hide how much noise the filtered samples keep
+  }
+
+  Explanation finish() {
+    ProgressMeter meter(plan_, control_);
+    const std::vector<RandomGroup> groups = random_groups(plan_.variables);
+    Layers layers(prepared_, plan_, groups);
+    Explanation result;
+    const Attribution attribution = attribute_noise(prepared_.frame, groups, threads_, [&] { meter.add(0, 0); });
+    backend_->load(prepared_.frame, std::move(prepared_.colors), plan_);
+    const std::vector<float> mean = resolved();
+    if (traced_) result.pixel = explain_trace(backend_->trace(0, *traced_), prepared_, plan_, geometry_.data_window);
+    for (const Window& tile : cut_into_tiles(plan_, 0, control_, threads_)) {
+      backend_->run(0, tile);
+      layers.add_tile(*backend_, tile);
+      meter.add(0, tile.pixel_count());
+    }
+    backend_->end_pass();
+    layers.add_colors(mean, resolved());
+    layers.add_features();
+    layers.add_noise(attribution, backend_->colors());
+    describe(result, groups, meter);
+    result.layers = layers.take(geometry_);
+    if (result.pixel) complete(*result.pixel, result.layers);
+    return result;
+  }
+
+ private:
+  std::vector<float> resolved() const { return resolve(prepared_.frame, backend_->colors(), plan_.carried); }
+
+  void describe(Explanation& result, const std::vector<RandomGroup>& groups, const ProgressMeter& meter) {
+    for (const RandomGroup& group : groups) result.groups.push_back(group.name);
+    describe_input(*backend_, plan_, prepared_, result.report);
+    result.report.passes.push_back(summarize(backend_->statistics(), prepared_.frame, plan_.passes[0]));
+    result.report.seconds = meter.seconds();
+    geometry_.metadata = provenance(geometry_.metadata, settings_, result.report);
+  }
+
+  /// What the layers know of the pixel.
+  void complete(ExplainedPixel& pixel, const Image& layers) const {
+    const float* values = layers.pixel(*traced_);
+    for (std::size_t c = 0; c < 3; ++c) {
+      pixel.mean[c] = values[c];
+      pixel.filtered[c] = values[3 + c];
+    }
+    for (std::size_t c = 0; c < layers.channel_count(); ++c)
+      if (layers.channels[c] == "neighborhood.effective") pixel.effective_samples = values[c];
+  }
+
+  const Settings& settings_;
+  const Control& control_;
+  int threads_;
+  std::optional<std::uint32_t> traced_;
+  Image geometry_;  ///< windows and metadata of the result
+  PreparedFrame prepared_;
+  Plan plan_;
+  std::unique_ptr<Backend> backend_;  ///< last: it refers to frame and plan
+};
+
+}  // namespace
+
+Settings explain_settings() {
+  Settings settings;
+  settings.profile = Profile::paper;
+  settings.box_widths = {explained_box};
+  return settings;
+}
+
+Explanation explain(SampleBuffer samples, const Settings& settings, const Control& control,
+                    const std::optional<PixelPosition>& pixel) {
+  return Run(std::move(samples), settings, control, pixel).finish();
+}
+
+std::uint64_t predict_explain_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {
+  return predict_memory(size, layout, settings) + extra_bytes(size.pixels, layout, settings);
+}
+
+}  // namespace rpf

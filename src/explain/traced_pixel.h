@@ -1,0 +1,14 @@
+// One pixel's trace in the words of the public header.
+#pragma once
+
+#include "frame.h"
+#include "rpf/explain.h"
+#include "trace.h"
+
+namespace rpf {
+
+/// `position`: in the coordinates of the data window. Colors are radiance again.
+ExplainedPixel explain_trace(const PixelTrace& trace, const PreparedFrame& prepared, const Plan& plan,
+                             const Window& data_window);
+
+}  // namespace rpf
