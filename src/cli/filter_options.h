@@ -21,6 +21,9 @@ struct FilterOptions {
   std::string preset, time_budget;
   bool verbose = false, quiet = false, dry_run = false;
   Settings settings;  ///< the options that need no translation
+
+  /// The command takes the fast way where there is one: the bits are the same.
+  FilterOptions() { settings.backend = "auto"; }
 };
 
 /// Which features and random parameters to model.
