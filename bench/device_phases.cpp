@@ -13,6 +13,8 @@ namespace {
 constexpr int width = 240, height = 135;
 constexpr Window tile{72, 40, 96, 54};  // its middle: most boxes are inside the frame
 
+constexpr double line_bytes = 64;
+
 enum Phase { draw, gather, prepare, information, weights, phases };
 constexpr const char* phase_names[phases] = {"draw", "gather", "prepare", "information", "weights"};
 
@@ -61,8 +63,11 @@ Pass& pass_of(const Settings& settings) {
   return *pass;
 }
 
-/// Cells of a joint histogram that are counted; the last row and column follow from the margins.
-double counted_cells(const Plan& plan) { return 4.0 * plan.half_bins * plan.half_bins; }
+/// Cells of a joint histogram that are counted, a vector at a time; the last row follows from the margin.
+double counted_cells(const Plan& plan) {
+  const auto bins = 2 * static_cast<kernel::uint>(plan.half_bins) + 1;
+  return 2.0 * plan.half_bins * kernel::rpf_bin_vectors(bins) * RPF_BINS_AT_ONCE;
+}
 
 /// Counts each phase in its own unit. Roofs are upper limits: bins that nobody is in and colors that do not matter cost
 /// nothing.
@@ -76,11 +81,10 @@ void count_phase(benchmark::State& state, const Pass& pass, int phase, double se
     case draw:
       return count(state, "draw", pass.draws, seconds, 0);
     case gather:
-      return count(state, "draw", pass.draws, seconds, at_roof(pass.draws, roofs.random_records));
+      return count(state, "draw", pass.draws, seconds, at_roof(pass.draws + (lines - 1) * pass.neighbors, roofs.random_records));
     case prepare:
       return count(state, "neighbor", pass.neighbors, seconds,
-                   at_roof(lines * pass.neighbors, roofs.random_records) +
-                       at_roof(column_bytes(plan) * pass.neighbors, roofs.cached_bytes));
+                   at_roof(2 * lines * line_bytes * pass.neighbors, roofs.cached_bytes));  // for means, then deviations
     case information:
       return count(state, "pair_and_neighbor", pairs, seconds, at_roof(pairs * counted_cells(plan) / 64, roofs.counts));
     default:
