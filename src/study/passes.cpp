@@ -1,0 +1,105 @@
+// One pass or several, narrow or wide: the thesis's error sweeps.
+#include <fmt/format.h>
+
+#include "study/story.h"
+
+namespace rpf::study {
+namespace {
+
+/// The thesis's own features: with albedo, textures would be kept whatever the boxes are.
+std::string with_boxes(const std::string& boxes) { return "--profile thesis --features N,P --boxes " + boxes; }
+
+std::vector<int> single_widths(bool quick) {
+  return quick ? std::vector<int>{3, 5, 7, 11, 17} : std::vector<int>{3, 5, 7, 9, 11, 13, 15, 17};
+}
+
+std::vector<int> first_widths(bool quick) {
+  return quick ? std::vector<int>{15, 21} : std::vector<int>{15, 17, 19, 21};
+}
+
+std::string two_passes(int first, int second) { return fmt::format("{},{}", first, second); }
+
+/// The column's bricks: a regular texture that neither normals nor, within a brick's width, positions tell apart.
+constexpr Region bricks = {"bricks", 0.031, -0.156, 0.144, 0.25};
+
+report::Plot single_plot(const Findings& findings, bool quick) {
+  report::Plot plot{"box width of the one pass", "MSE, part of the plain mean's", {}, false, false, false, {}};
+  for (const int width : single_widths(quick)) plot.x_ticks.push_back(width);
+  for (const std::string& scene : findings.scenes()) {
+    report::Curve curve{scene, {}};
+    const double mean = findings.at(scene, "plain mean").error("MSE");
+    for (const int width : single_widths(quick))
+      curve.points.push_back({double(width), findings.at(scene, std::to_string(width)).error("MSE") / mean});
+    plot.curves.push_back(curve);
+  }
+  return plot;
+}
+
+report::Plot double_plot(const Findings& findings, bool quick) {
+  report::Plot plot{"box width of the first pass", "MSE, part of the plain mean's", {}, false, false, false, {}};
+  for (const int width : first_widths(quick)) plot.x_ticks.push_back(width);
+  for (const std::string& scene : findings.scenes())
+    for (const int second : {7, 9}) {
+      report::Curve curve{fmt::format("{}, then {}", scene, second), {}};
+      const double mean = findings.at(scene, "plain mean").error("MSE");
+      for (const int first : first_widths(quick))
+        curve.points.push_back({double(first), findings.at(scene, two_passes(first, second)).error("MSE") / mean});
+      plot.curves.push_back(curve);
+    }
+  return plot;
+}
+
+/// On how many scenes `better` has less of an error than `worse`, and the numbers.
+Verdict compare(const Findings& findings, const char* statement, const char* better, const char* worse,
+                const char* error) {
+  std::size_t holding = 0;
+  std::string measured = fmt::format("{}, {} against {}:", error, better, worse);
+  for (const std::string& scene : findings.scenes()) {
+    const double a = findings.at(scene, better).error(error), b = findings.at(scene, worse).error(error);
+    holding += a < b ? 1 : 0;
+    measured += fmt::format(" {} {} / {};", scene, number(a), number(b));
+  }
+  measured.pop_back();
+  return {statement, measured, verdict_of(holding, findings.scenes().size())};
+}
+
+}  // namespace
+
+std::vector<Run> plan_passes(const Extent& extent) {
+  std::vector<Run> runs;
+  for (const char* scene : {"dof", "soft-shadow", "column"}) {
+    const bench::SweepFrame frame = frame_of(scene, extent);
+    const auto add = [&](const std::string& boxes) { runs.push_back({boxes, frame, with_boxes(boxes)}); };
+    runs.push_back({"plain mean", frame, plain_mean});
+    for (const int width : single_widths(extent.quick)) add(std::to_string(width));
+    for (const int second : {7, 9})
+      for (const int first : first_widths(extent.quick)) add(two_passes(first, second));
+    add("35,17,7");
+    add("55,35,17,7");
+  }
+  return runs;
+}
+
+void tell_passes(const Findings& findings, Story& story) {
+  const bool quick = story.quick();
+  story.verdicts(
+      {compare(findings, "Large boxes first keep more detail than one small pass (35,17,7 against 7)", "35,17,7", "7",
+               "MSE"),
+       compare(findings, "The same, by what an eye sees", "35,17,7", "7", "FLIP"),
+       compare(findings, "A large pass before a small one is better than the small one", "15,7", "7", "MSE"),
+       compare(findings, "A wider first pass is better: 21 before 7 against 15 before 7", "21,7", "15,7", "MSE"),
+       compare(findings, "7 as second pass is better than 9", "15,7", "15,9", "MSE")});
+  story.heading("One pass");
+  story.plot("one-pass", single_plot(findings, quick), "MSE of one pass");
+  story.heading("Two passes");
+  story.plot("two-passes", double_plot(findings, quick), "MSE of two passes, the second of 7 or 9");
+  for (const std::string& scene : findings.scenes()) {
+    story.heading(scene);
+    story.pictures({&findings.at(scene, "plain mean"), &findings.at(scene, "7"), &findings.at(scene, "35,17,7")});
+    std::vector<Column> more;
+    if (scene == "column") more = {story.contrast_in(bricks)};
+    story.runs(findings.on(scene), more);
+  }
+}
+
+}  // namespace rpf::study
