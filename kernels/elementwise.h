@@ -131,4 +131,9 @@ RPF_INLINE RPF_INT rpf_bin(RPF_REAL normalized, int half_bins) {
 // w_ij (T 5.3 with 5.10) from the sum of squared scaled differences.
 RPF_INLINE RPF_REAL rpf_weight(RPF_REAL squared_distance) { return rpf_exp(-squared_distance); }
 
+// ---- section 8: fixed weights ---------------------------------------------------------------------------------------
+
+// A value less its center; a missing value is at the center.
+RPF_INLINE RPF_REAL rpf_centered(RPF_REAL value, float center) { return rpf_or_zero(value - center); }
+
 // NOLINTEND(modernize-*, bugprone-macro-parentheses)

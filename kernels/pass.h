@@ -36,6 +36,8 @@ typedef struct {
   float alpha_factor, growth;   // of (T 5.9)
   float noise;                  // of (T 5.10)
   int outlier_step;             // 1: section 7 follows
+  int reach;                    // of the box of section 8: (b - 1) / 2
+  uint coordinates;             // of its distances
 } rpf_pass;
 
 #ifdef __cplusplus

@@ -3,11 +3,13 @@
 // Own samples that are filtered together: a neighbor's coordinates are read once for all of them.
 #define RPF_BATCH (RPF_SAMPLES > 0 && RPF_SAMPLES < 4 ? RPF_SAMPLES : 4)
 
-// The variables that take part in the distance: colors first, then features, and what their values are multiplied with.
+#define RPF_COORDINATES (5 + RPF_FEATURES)  // at most: position (section 8), colors, features
+
+// The variables that take part in the distance, and what their values are multiplied with.
 typedef struct {
   uint count;
-  uint column[3 + RPF_FEATURES];
-  float scale[3 + RPF_FEATURES];
+  uint column[RPF_COORDINATES];
+  float scale[RPF_COORDINATES];
 } Coordinates;
 
 static void add_coordinate(uint variable, float scale, Coordinates* out) {
@@ -49,7 +51,7 @@ static float2 range_of(__global const float16* column, uint blocks) {
 }
 
 // Weights of RPF_LANES neighbors for each own sample of the batch.
-static void block_weights(const Slot* slot, const Coordinates* coordinates, float (*own)[3 + RPF_FEATURES], uint block,
+static void block_weights(const Slot* slot, const Coordinates* coordinates, float (*own)[RPF_COORDINATES], uint block,
                           uint neighbors, float16* weight) {
   float16 distance[RPF_BATCH];
 #pragma unroll
@@ -89,7 +91,7 @@ static void clear_sums(Sums* sums) {
 }
 
 // Adds the blocks [first, last), one stretch, to the sums of the own samples from `begin`.
-static void add_stretch(const Slot* slot, const Coordinates* coordinates, float (*own_value)[3 + RPF_FEATURES],
+static void add_stretch(const Slot* slot, const Coordinates* coordinates, float (*own_value)[RPF_COORDINATES],
                         uint begin, uint own, uint neighbors, uint first, uint last, const Trace* trace, Sums* sums) {
   Sums stretch;
   float16 weight[RPF_BATCH];
@@ -114,7 +116,7 @@ static void add_stretch(const Slot* slot, const Coordinates* coordinates, float 
 static void filter_batch(const Slot* slot, const Coordinates* coordinates, uint begin, uint own, uint neighbors,
                          const float2* range, const Trace* trace, __global float* out) {
   const uint blocks = rpf_blocks(neighbors);
-  float own_value[RPF_BATCH][3 + RPF_FEATURES];
+  float own_value[RPF_BATCH][RPF_COORDINATES];
   Sums sums;
   for (uint i = 0; i < RPF_BATCH; ++i) {
     const uint sample = min(begin + i, own - 1);

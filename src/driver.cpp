@@ -106,7 +106,7 @@ class Run {
     check_memory(samples, settings);
     backend_ = make_backend(settings);
     prepared_ = prepare(std::move(samples), settings);
-    if (settings.drop_uninformative) drop_uninformative(prepared_, settings);
+    if (settings.method == Method::rpf && settings.drop_uninformative) drop_uninformative(prepared_, settings);
     plan_ = make_plan(prepared_.facts, settings);
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "backend.h"
 #include "frame.h"
@@ -29,6 +30,7 @@ std::uint64_t pixel_bytes(std::uint64_t carried) { return 2 * word + sizeof(Pixe
 
 FrameFacts facts_of(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {
   FrameFacts facts;
+  facts.width = facts.height = std::numeric_limits<int>::max();  // what the box is, the frame has room for
   facts.max_samples_per_pixel = size.max_samples_per_pixel;
   const Selection selection = select_channels(layout, settings);
   facts.variables.random_names = selection.random;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fixed_weights.h"
 #include "polish.h"
 #include "rpf/error.h"
 #include "spikes.h"
@@ -39,6 +40,10 @@ void plan_rejection(Plan& plan, const FrameFacts& facts, const Settings& setting
 PassPlan plan_pass(const FrameFacts& facts, const Settings& settings, std::size_t pass) {
   PassPlan result;
   result.box_width = settings.box_widths[pass];
+  if (settings.method != Method::rpf) {
+    plan_fixed_weights(facts, settings, result);
+    return result;
+  }
   result.growth = static_cast<float>(1.0 + 0.1 * static_cast<double>(pass));
   result.neighborhood = neighborhood_size(settings, result.box_width);
   const std::uint32_t samples = facts.max_samples_per_pixel;
@@ -120,6 +125,10 @@ void validate(const Settings& s) {
   require(s.position_scale >= 1e-6F && s.position_scale <= 1e6F,
           fmt::format("position scale {}: a number from 1e-6 to 1e6 is expected", s.position_scale));
   require(s.redraws >= 0 && s.redraws <= 15, fmt::format("redraws {}: a number from 0 to 15 is expected", s.redraws));
+  require(s.sigma_color >= 1e-30F && s.sigma_color <= 1e30F,
+          fmt::format("sigma color {}: a radiance from 1e-30 to 1e30 is expected, such as 30", s.sigma_color));
+  require(s.sigma_feature >= 1e-6F && s.sigma_feature <= 1e6F,
+          fmt::format("sigma feature {}: a number from 1e-6 to 1e6 is expected, such as 0.5", s.sigma_feature));
   require(s.polish == 0 || (s.polish >= 1e-3F && s.polish <= 10),
           fmt::format("polish {}: 0 or a number from 0.001 to 10 is expected, such as 0.15", s.polish));
   require(s.threads >= 0, fmt::format("threads {}: a positive number is expected, or 0 for all cores", s.threads));
@@ -131,6 +140,8 @@ Plan make_plan(const FrameFacts& facts, const Settings& settings) {
     throw Error(ErrorKind::input, fmt::format("{} samples in one pixel: at most {} are possible",
                                               facts.max_samples_per_pixel, most_neighbors));
   Plan plan;
+  plan.method = settings.method;
+  plan.centers = centers_of(facts, settings);
   plan.width = facts.width;
   plan.height = facts.height;
   plan.variables = facts.variables;
@@ -142,11 +153,11 @@ Plan make_plan(const FrameFacts& facts, const Settings& settings) {
   plan.entropy_slack = entropy_slack(settings.bins);
   if (settings.bias_correction)
     plan.information_bias = 0.5F * static_cast<float>((settings.bins - 1) * (settings.bins - 1));
-  plan.statistics_block = settings.statistics_block;
+  if (settings.method == Method::rpf) plan.statistics_block = settings.statistics_block;
   if (settings.statistics_samples > 0) plan.statistics_samples = std::min(settings.statistics_samples, most_neighbors);
   plan.alpha_factor = settings.alpha_factor;
   plan.noise = settings.noise;
-  plan.outlier_step = settings.profile == Profile::paper;
+  plan.outlier_step = settings.method == Method::rpf && settings.profile == Profile::paper;
   plan.spread_spikes = settings.spread_spikes;
   plan.polish = settings.polish;
   for (std::size_t pass = 0; pass < settings.box_widths.size(); ++pass)

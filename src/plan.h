@@ -26,6 +26,13 @@ struct NeighborhoodSize {
   std::uint32_t draws(std::uint32_t samples) const;
 };
 
+/// One axis of the space in which a method with fixed weights measures distances: w = exp(-sum of (scale *
+/// difference)^2).
+struct Coordinate {
+  std::uint32_t variable = 0;
+  float scale = 0;  ///< 1 / (sqrt(2) sigma), sigma in the variable's unit (colors: scaled radiance)
+};
+
 struct PassPlan {
   int box_width = 1;
   float growth = 1;  ///< 1 + 0.1 t of (T 5.9)
@@ -35,6 +42,8 @@ struct PassPlan {
   std::vector<std::int8_t> offsets;       ///< offset_table(box_width)
   EntropyTable entropy;
   float nats_per_unit = 0;  ///< ln 2 / entropy.units_per_bit
+  std::vector<Coordinate>
+      coordinates;  ///< of a method with fixed weights, which needs nothing between box_width and here
   Window region;  ///< pixels to filter in this pass, frame coordinates (the crop and what later passes need around it)
 };
 
@@ -48,8 +57,10 @@ struct Variables {
 };
 
 struct Plan {
+  Method method = Method::rpf;
   int width = 0, height = 0;  ///< of the frame; pixel = y * width + x
   Variables variables;
+  std::vector<float> centers;            ///< [variable] what a missing value counts as; empty: rpf
   std::vector<float> rejection_factor;   ///< [feature] H
   std::vector<float> minimum_tolerance;  ///< [feature] a; infinity: takes no part in the rejection test
   std::size_t rejecting = 0;             ///< features up to the last one that takes part in the rejection test
@@ -80,12 +91,20 @@ bool is_second_hit(const std::string& group);
 /// Whether a group of features holds world positions: "P" or "P2".
 bool is_world_position(const std::string& group);
 
+/// Where the values of a feature lie, over all samples of a frame.
+struct FeatureSpread {
+  float mean = 0;
+  double deviation = 0;  ///< of its group: root of the sum of its components' variances
+};
+
 /// What the plan needs to know of the prepared frame.
 struct FrameFacts {
   int width = 0, height = 0;
   std::uint32_t max_samples_per_pixel = 0;
   Variables variables;
-  float position_diagonal = 0;  ///< of the box of all first-hit world positions
+  float position_diagonal = 0;                ///< of the box of all first-hit world positions
+  float radiance_scale = 1;                   ///< what the color was multiplied with
+  std::vector<FeatureSpread> feature_spread;  ///< [feature], where the method asks for it
   std::size_t carried = 3;
   Window crop;  ///< frame coordinates; the pixels that are wanted in the end
 };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "clean.h"
+#include "fixed_weights.h"
 #include "frame.h"
 #include "rpf/error.h"
 
@@ -129,6 +130,19 @@ std::vector<float> carried_values(const SampleBuffer& samples, const std::vector
   return values;
 }
 
+/// Distances on the film need a position: a sample that has none is in the middle of its pixel.
+void center_missing_positions(SampleBuffer& samples, const Columns& columns) {
+  const Window& w = samples.data_window;
+  for (std::size_t pixel = 0; pixel < w.pixel_count(); ++pixel)
+    for (std::uint32_t i = samples.first_sample[pixel]; i < samples.first_sample[pixel + 1]; ++i) {
+      const int place[2] = {w.x + static_cast<int>(pixel) % w.width, w.y + static_cast<int>(pixel) / w.width};
+      for (int axis = 0; axis < 2; ++axis) {
+        float& value = samples.record(i)[columns.film[axis]];
+        if (std::isnan(value)) value = static_cast<float>(place[axis]) + 0.5F;
+      }
+    }
+}
+
 std::vector<float> sample_weights(const SampleBuffer& samples, const Columns& columns) {
   std::vector<float> weights;
   for (std::size_t i = 0; columns.weight && i < samples.sample_count(); ++i)
@@ -192,7 +206,8 @@ PreparedFrame prepare(SampleBuffer samples, const Settings& settings) {
   PreparedFrame result;
   result.facts.crop = wanted_region(samples.data_window, settings.crop);
   result.notes = clean(samples, columns, settings.clamp_negative);
-  result.radiance_scale = radiance_scale(samples, columns);
+  if (settings.method != Method::rpf) center_missing_positions(samples, columns);
+  result.radiance_scale = result.facts.radiance_scale = radiance_scale(samples, columns);
   result.facts.position_diagonal = position_diagonal(samples, columns);
 
   std::vector<Source> variables;
@@ -216,6 +231,8 @@ PreparedFrame prepare(SampleBuffer samples, const Settings& settings) {
   frame.has_missing = std::any_of(frame.records.begin(), frame.records.end(), [](float x) { return std::isnan(x); });
   frame.first_sample = std::move(samples.first_sample);
   result.facts.max_samples_per_pixel = most_samples(frame.first_sample);
+  if (settings.method == Method::cross_bilateral)
+    result.facts.feature_spread = spread_of_features(frame, result.facts.variables);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "rpf/methods.h"
 #include "rpf/version.h"
 
 namespace rpf {
@@ -30,6 +31,25 @@ std::string choices_text(const Settings& s) {
       s.bias_correction, s.clamp_negative, s.drop_uninformative);
 }
 
+/// What Random Parameter Filtering was told.
+void describe_rpf(const Settings& settings, const Report& report, Metadata& m) {
+  m["rpf:profile"] = std::string(settings.profile == Profile::paper ? "paper" : "thesis");
+  m["rpf:neighborhood"] = neighborhood_text(settings);
+  m["rpf:noise"] = settings.noise;
+  m["rpf:bins"] = std::int32_t{settings.bins};
+  m["rpf:random"] = list(report.random);
+  if (!report.uninformative.empty()) m["rpf:uninformative"] = list(report.uninformative);
+  m["rpf:drawSeed"] = static_cast<std::int32_t>(settings.seed);
+  m["rpf:choices"] = choices_text(settings);
+}
+
+/// What a method with fixed weights was told.
+void describe_fixed_weights(const Settings& settings, Metadata& m) {
+  if (settings.method != Method::gaussian) m["rpf:sigmaColor"] = settings.sigma_color;
+  if (settings.method == Method::cross_bilateral) m["rpf:sigmaFeature"] = settings.sigma_feature;
+  m["rpf:choices"] = fmt::format("clamp-negative={}", settings.clamp_negative);
+}
+
 }  // namespace
 
 Metadata provenance(Metadata input, const Settings& settings, const Report& report) {
@@ -38,16 +58,13 @@ Metadata provenance(Metadata input, const Settings& settings, const Report& repo
   m.erase("rpf:version");
   m["rpf:software"] = std::string("rpf ") + version();
   m["rpf:backend"] = report.backend;
-  m["rpf:profile"] = std::string(settings.profile == Profile::paper ? "paper" : "thesis");
+  m["rpf:method"] = name_of(settings.method);
   m["rpf:boxes"] = fmt::format("{}", fmt::join(settings.box_widths, ","));
-  m["rpf:neighborhood"] = neighborhood_text(settings);
-  m["rpf:noise"] = settings.noise;
-  m["rpf:bins"] = std::int32_t{settings.bins};
-  m["rpf:random"] = list(report.random);
   m["rpf:features"] = list(report.features);
-  if (!report.uninformative.empty()) m["rpf:uninformative"] = list(report.uninformative);
-  m["rpf:drawSeed"] = static_cast<std::int32_t>(settings.seed);
-  m["rpf:choices"] = choices_text(settings);
+  if (settings.method == Method::rpf)
+    describe_rpf(settings, report, m);
+  else
+    describe_fixed_weights(settings, m);
   m["rpf:steps"] = steps_text(settings);
   std::vector<std::string> notes;
   for (const InputNote& note : report.notes)

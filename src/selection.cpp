@@ -67,18 +67,21 @@ Groups default_random(const Groups& available, Profile profile) {
   return wanted;
 }
 
+std::vector<std::string> select_random(const std::vector<std::string>& slots, const Settings& settings) {
+  const Groups wanted = settings.random.value_or(default_random(groups_of(slots), settings.profile));
+  std::vector<std::string> selected = pick(slots, wanted, "random parameter");
+  if (contains(wanted, inside_pixel)) selected.insert(selected.end(), {"pixel.X", "pixel.Y"});
+  return selected;
+}
+
 }  // namespace
 
 Selection select_channels(const SampleLayout& layout, const Settings& settings) {
+  if (settings.method == Method::gaussian || settings.method == Method::bilateral) return {};
   const auto random = slots_where(layout, is_random_slot);
   const auto features = slots_where(layout, is_feature_slot);
-  const Groups wanted = settings.random.value_or(default_random(groups_of(random), settings.profile));
   Selection selection;
-  selection.random = pick(random, wanted, "random parameter");
-  if (contains(wanted, inside_pixel)) {
-    selection.random.emplace_back("pixel.X");
-    selection.random.emplace_back("pixel.Y");
-  }
+  if (settings.method == Method::rpf) selection.random = select_random(random, settings);
   if (contains(settings.features.value_or(Groups{}), inside_pixel))
     throw Error(ErrorKind::usage,
                 "feature 'pixel' is not a feature; --random pixel models the position inside the pixel");
@@ -93,7 +96,8 @@ Selection select_channels(const SampleLayout& layout, const Settings& settings) 
 std::vector<std::string> needed_slots(const SampleLayout& layout, const Settings& settings) {
   const Selection selection = select_channels(layout, settings);
   const auto is_position = [](const std::string& slot) { return is_world_position(group_of(slot)); };
-  const bool measures = std::any_of(selection.features.begin(), selection.features.end(), is_position);
+  const bool measures =
+      settings.method == Method::rpf && std::any_of(selection.features.begin(), selection.features.end(), is_position);
   const auto is_needed = [&](const std::string& slot) {
     if (is_random_slot(slot)) return contains(selection.random, slot);
     // The tolerance of positions depends on the scene's size: first-hit positions, where the normals say it is a hit.

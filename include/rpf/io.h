@@ -47,6 +47,9 @@ struct SampleReadOptions {
   std::uint64_t max_memory = 0;
 };
 
+/// Whether a file begins as those with samples do. Throws Error(input) where it cannot be read.
+bool is_sample_file(const std::string& path);
+
 /// Reads header and sample counts only. The content decides what kind of file it is. Throws Error(input) with the file,
 /// channel or attribute and what was expected.
 SampleFileInfo inspect_samples(const std::string& path, const SampleReadOptions& options = {});

@@ -7,6 +7,7 @@
 #include "rpf/filter.h"
 #include "rpf/image.h"
 #include "rpf/io.h"
+#include "rpf/methods.h"
 #include "rpf/metrics.h"
 #include "rpf/samples.h"
 #include "rpf/scene.h"

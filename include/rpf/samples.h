@@ -49,6 +49,10 @@ struct SampleBuffer {
   void validate() const;
 };
 
+/// An image as a frame of one sample a pixel, in the pixel's center: R, G, B, A where there is one, no random
+/// parameters and no features. An image of one channel is gray. Throws Error(input) for an image without R, G and B.
+SampleBuffer samples_of_image(const Image& image);
+
 /// A rendering to be merged with others.
 struct SamplePart {
   std::string name;  ///< what errors call it, for example its file

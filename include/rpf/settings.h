@@ -16,7 +16,20 @@ enum class Profile {
   paper    ///< M = b^2 s / 2, and the outlier step after every pass
 };
 
+/// Where the weights of a sample's neighbors come from (algorithm.md, sections 3 to 8). Beside RPF the thesis's
+/// baselines, whose weights are fixed: neighbors are all samples in the box, and none is drawn, rejected or measured.
+enum class Method {
+  rpf,             ///< from what colors and features say about the random parameters
+  gaussian,        ///< from the distance on the film
+  bilateral,       ///< and from the difference in color
+  cross_bilateral  ///< and from the differences in features: what RPF would be without its statistics
+};
+
 struct Settings {
+  /// The others than rpf know box_widths, the sigmas, features, clamp_negative, the steps beyond the sources and
+  /// everything from filter_features on. method_settings() (rpf/methods.h) has box widths and sigmas that suit a
+  /// method.
+  Method method = Method::rpf;
   std::string backend = "cpu";  ///< one of backend_names()
   std::string device;           ///< OpenCL device: index or part of a name (devices.h); empty: the first
   Profile profile = Profile::thesis;
@@ -57,6 +70,10 @@ struct Settings {
   bool reject_second_hit = false;  ///< features of the second hit (N2, P2, ...) take part in the rejection test
   bool bias_correction = false;    ///< subtract (B-1)^2 / (2N) from every mutual information
   bool clamp_negative = false;     ///< negative radiance becomes 0
+
+  // Methods with fixed weights. The standard deviation on the film is a quarter of the box width, in pixels.
+  float sigma_color = 30;      ///< in the unit of the radiance (linear, over R, G and B together); 1e-30 .. 1e30
+  float sigma_feature = 0.5F;  ///< in standard deviations of a group of features over the frame; 1e-6 .. 1e6
 
   // Steps beyond thesis and paper (docs/deviations.md).
   /// After every pass, what makes a pixel brighter than its 8 neighbors is shared with the 5x5 pixels around it.

@@ -5,13 +5,16 @@
 
 #include "bench/frame_run.h"
 #include "cli/commands.h"
+#include "cli/filter_input.h"
 #include "cli/filter_options.h"
+#include "cli/method_options.h"
 #include "cli/needs.h"
 #include "cli/print.h"
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
+#include "rpf/methods.h"
 #include "rpf/presets.h"
 
 namespace rpf::cli {
@@ -45,6 +48,16 @@ void check_budget(const SampleFileInfo& info, const Settings& settings, bool tel
 void print_notes(const Report& report) {
   for (const InputNote& note : report.notes)
     remark("rpf: note: {}: {} (first at pixel {},{})\n", note.what, note.count, note.x, note.y);
+}
+
+/// What a pass with fixed weights did.
+void print_fixed_weights(const Report& report, Method method) {
+  print("backend {}\nmethod: {}\nfeatures: {}\n", report.backend, name_of(method), list(report.features));
+  print("{:>4} {:>4} {:>9} {:>7} {:>8}\n", "pass", "box", "neighbors", "energy", "seconds");
+  for (std::size_t i = 0; i < report.passes.size(); ++i) {
+    const PassReport& p = report.passes[i];
+    print("{:>4} {:>4} {:>9.1f} {:>7.4f} {:>8.2f}\n", i + 1, p.box_width, p.neighbors, p.energy, p.seconds);
+  }
 }
 
 void print_report(const Report& report) {
@@ -111,7 +124,10 @@ Settings settings_within(double seconds, const SampleBuffer& samples, const Sett
 
 void print_summary(const FilterOptions& options, const SampleFileInfo& info, const Report& report, double cpu,
                    double reading) {
-  if (options.verbose) print_report(report);
+  if (options.verbose && options.settings.method != Method::rpf)
+    print_fixed_weights(report, options.settings.method);
+  else if (options.verbose)
+    print_report(report);
   print("{}: {}x{} pixels, {} samples, {} passes in {:.1f} s ({:.1f} CPU seconds, {:.1f} of them reading)\n",
         options.output, info.data_window.width, info.data_window.height, info.sample_count, report.passes.size(),
         report.seconds, cpu, reading);
@@ -123,14 +139,16 @@ int run(const FilterOptions& options, const std::vector<std::string>& arguments)
   const double budget = time_budget_of(options);
   Settings settings = settings_of(options);
   SampleReadOptions read_options = read_options_of(options.map, settings.max_memory);
-  const SampleFileInfo info = inspect_samples(options.input, read_options);
+  FilterInput input = open_input(options.input, settings.method, read_options);
+  const SampleFileInfo& info = input.info;
+  if (input.image && options.sigma_color == 0) settings.sigma_color = image_sigma_color;
   check_budget(info, settings, options.verbose || options.dry_run);
   if (!options.output.empty()) check_target(options.output);
   if (!options.aov.empty() && !is_folder(options.aov)) check_target(options.aov);
   if (options.dry_run) return 0;
 
   read_options.slots = needed_layout(info, settings).slots;
-  SampleBuffer samples = read_samples(options.input, read_options);
+  SampleBuffer samples = input.image ? std::move(*input.image) : read_samples(options.input, read_options);
   const bench::Cost reading = clock.elapsed();
   if (budget > 0) settings = settings_within(budget - reading.wall, samples, settings, options, arguments);
   const Result result = with_progress(options.quiet ? "never" : options.progress, [&](const Control& control) {
@@ -147,8 +165,7 @@ int run(const FilterOptions& options, const std::vector<std::string>& arguments)
 
 Command add_filter_command(CLI::App& app, const std::vector<std::string>& arguments) {
   auto options = std::make_shared<FilterOptions>();
-  const std::string preset = preset_in(arguments);
-  if (!preset.empty()) start_from_preset(preset, *options);
+  start_from_named_settings(arguments, {}, *options);
   add_filter_options(app, *options);
   return [options, arguments] { return run(*options, arguments); };
 }

@@ -6,8 +6,10 @@
 #include <map>
 
 #include "cli/environment.h"
+#include "cli/method_options.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
+#include "rpf/methods.h"
 #include "rpf/presets.h"
 
 namespace rpf::cli {
@@ -165,6 +167,18 @@ void add_run_options(CLI::App& app, FilterOptions& o) {
   app.add_flag("-q,--quiet", o.quiet, "Only errors")->group(group);
 }
 
+/// What an option among the arguments says, read before they are parsed; empty without it.
+std::string value_in(const std::vector<std::string>& arguments, const std::string& option) {
+  CLI::App app;
+  app.allow_extras();
+  app.set_help_flag();
+  std::string value;
+  app.add_option(option, value);
+  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+  app.parse(reversed);
+  return value;
+}
+
 }  // namespace
 
 void add_map_option(CLI::App& app, std::vector<std::string>& map) {
@@ -175,33 +189,27 @@ void add_map_option(CLI::App& app, std::vector<std::string>& map) {
 
 void add_filter_options(CLI::App& app, FilterOptions& options) {
   add_file_options(app, options);
+  add_method_options(app, options);
   add_model_options(app, options);
   add_tuning_options(app, options);
   add_step_options(app, options);
   add_run_options(app, options);
 }
 
-std::string preset_in(const std::vector<std::string>& arguments) {
-  CLI::App app;
-  app.allow_extras();
-  app.set_help_flag();
-  std::string preset;
-  app.add_option("--preset", preset);
-  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
-  app.parse(reversed);
-  return preset;
-}
-
-void start_from_preset(const std::string& preset, FilterOptions& options) {
-  options.settings = preset_settings(preset);
+void start_from_named_settings(const std::vector<std::string>& arguments, const std::string& preset,
+                               FilterOptions& options) {
+  const std::string method = value_in(arguments, "--method");
+  const std::string name = preset.empty() ? value_in(arguments, "--preset") : preset;
+  if (!method.empty()) options.settings = method_settings(method);
+  if (name.empty() || options.settings.method != Method::rpf) return;
+  options.settings = preset_settings(name);
   options.profile = options.settings.profile == Profile::paper ? "paper" : "thesis";
 }
 
 FilterOptions parse_filter_options(const std::vector<std::string>& arguments, const std::string& preset) {
   CLI::App app;
   FilterOptions options;
-  const std::string named = preset.empty() ? preset_in(arguments) : preset;
-  if (!named.empty()) start_from_preset(named, options);
+  start_from_named_settings(arguments, preset, options);
   add_filter_options(app, options);
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
   app.parse(reversed);
@@ -241,6 +249,7 @@ Settings settings_of(const FilterOptions& o) {
   s.profile = o.profile == "paper" ? Profile::paper : Profile::thesis;
   if (!o.boxes.empty()) s.box_widths = box_widths(o.boxes);
   if (o.samples_factor > 0) s.samples_factor = o.samples_factor;
+  if (o.sigma_color > 0) s.sigma_color = o.sigma_color;
   if (o.neighbors_factor > 0) s.neighbors_factor = o.neighbors_factor;
   if (!o.features.empty()) s.features = groups(o.features);
   if (!o.random.empty()) s.random = groups(o.random);

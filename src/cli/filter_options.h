@@ -13,8 +13,9 @@ namespace rpf::cli {
 /// The options of `rpf INPUT -o OUTPUT` as they were written.
 struct FilterOptions {
   std::string input, output, aov;
-  std::string profile = "thesis", boxes, features, random, crop;
+  std::string method = "rpf", profile = "thesis", boxes, features, random, crop;
   double samples_factor = 0, neighbors_factor = 0;  ///< 0: not given
+  float sigma_color = 0;                            ///< 0: not given
   std::vector<std::string> map;
   std::uint64_t max_memory_mb = 0;  ///< 0: not given
   std::string progress = "auto";
@@ -25,12 +26,11 @@ struct FilterOptions {
 
 void add_filter_options(CLI::App& app, FilterOptions& options);
 
-/// What --preset among these arguments names; empty without it.
-std::string preset_in(const std::vector<std::string>& arguments);
-
-/// Makes a preset's settings what the options are where they are not given: to be called before the parser runs.
-/// Throws Error(usage) for an unknown preset.
-void start_from_preset(const std::string& preset, FilterOptions& options);
+/// Makes the settings that --method or --preset among the arguments name what the options are where they are not given:
+/// to be called before the parser runs. `preset` in place of the arguments' where it is not empty. Throws Error(usage)
+/// for an unknown name.
+void start_from_named_settings(const std::vector<std::string>& arguments, const std::string& preset,
+                               FilterOptions& options);
 
 /// Parses the options of a filter run alone, with a preset to start from; empty: none but what --preset says. Throws
 /// CLI::ParseError, and Error(usage) for an unknown preset.

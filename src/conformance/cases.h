@@ -12,7 +12,7 @@
 namespace rpf {
 
 struct ConformanceCase {
-  std::string name;  ///< group/what/profile
+  std::string name;  ///< group/what/profile; of a method with fixed weights method/NAME/what
   std::string scene;
   SceneOptions options;
   Settings settings;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "cpu/box.h"
 #include "cpu/neighborhood.h"
 #include "cpu/statistics.h"
 #include "cpu/weighting.h"
@@ -67,20 +68,31 @@ std::optional<std::uint32_t> leader_of(const Frame& frame, const Window& block) 
 
 /// Sections 3 and 4.
 void fill_neighborhood(const Frame& frame, const Plan& plan, int pass, std::uint32_t pixel, Workspace& w) {
+  if (plan.method != Method::rpf) return gather_box(frame, plan, pass, pixel, w.neighborhood);
   gather(frame, plan, pass, pixel, w.neighborhood);
   normalize(w.neighborhood, w.normalization);
 }
 
 /// Section 5, for the neighborhood in the workspace.
 void measure(const Plan& plan, int pass, Workspace& w) {
+  if (plan.method != Method::rpf) return;
   measure_dependencies(plan, pass, w.neighborhood, w.dependencies);
   compute_weights(plan, pass, w.dependencies, w.weights);
 }
 
-/// Sections 6 and 7, likewise. `out`: [own samples][carried].
-void filter_pixel(const Frame& frame, const Plan& plan, std::uint32_t pixel, const std::vector<float>& colors,
+/// Section 6 or 8, likewise. `out`: [own samples][carried].
+void average_samples(const Frame& frame, const Plan& plan, int pass, std::uint32_t own,
+                     const std::vector<float>& colors, Workspace& w, float* out, std::vector<float>* weights_out) {
+  if (plan.method == Method::rpf)
+    filter_samples(plan, w.neighborhood, own, w.weights, colors, w.filter, out, weights_out);
+  else
+    filter_box(frame, plan, pass, w.neighborhood, own, colors, w.filter, out, weights_out);
+}
+
+/// The same with section 7.
+void filter_pixel(const Frame& frame, const Plan& plan, int pass, std::uint32_t pixel, const std::vector<float>& colors,
                   Workspace& w, float* out) {
-  filter_samples(plan, w.neighborhood, frame.samples(pixel), w.weights, colors, w.filter, out, nullptr);
+  average_samples(frame, plan, pass, frame.samples(pixel), colors, w, out, nullptr);
   if (plan.outlier_step) replace_outliers(out, frame.samples(pixel), plan.carried);
 }
 
@@ -106,7 +118,7 @@ void CpuBackend::filter_block(int pass, const Window& block, const Window& wante
     if (frame_->samples(pixel) == 0) continue;
     fill_neighborhood(*frame_, *plan_, pass, pixel, w);
     if (pixel == *leader) measure(*plan_, pass, w);
-    filter_pixel(*frame_, *plan_, pixel, colors_, w,
+    filter_pixel(*frame_, *plan_, pass, pixel, colors_, w,
                  next_colors_.data() + frame_->first_sample[pixel] * plan_->carried);
     statistics_[pixel] = summarize(w);
   }
@@ -140,9 +152,9 @@ PixelTrace CpuBackend::trace(int pass, std::uint32_t pixel) {
   measure(*plan_, pass, w);
   if (leader != pixel) fill_neighborhood(*frame_, *plan_, pass, pixel, w);
   t.colors.resize(own * plan_->carried);
-  filter_pixel(*frame_, *plan_, pixel, colors_, w, t.colors.data());
+  filter_pixel(*frame_, *plan_, pass, pixel, colors_, w, t.colors.data());
   t.filtered.resize(t.colors.size());
-  filter_samples(*plan_, w.neighborhood, own, w.weights, colors_, w.filter, t.filtered.data(), &t.weights);
+  average_samples(*frame_, *plan_, pass, own, colors_, w, t.filtered.data(), &t.weights);
   t.shift = w.neighborhood.shift;
   t.neighbors = w.neighborhood.neighbors;
   t.own_mean = w.neighborhood.own_mean;

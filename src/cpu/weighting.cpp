@@ -20,16 +20,15 @@ void add_coordinate(const Neighborhood& n, std::size_t variable, float scale, Fi
 /// Only variables with a weight above 0 become coordinates: colors first, then features.
 void set_coordinates(const Plan& plan, const Neighborhood& n, float sharpness, const FilterWeights& weights,
                      FilterScratch& scratch) {
-  scratch.active = 0;
-  scratch.coordinates.clear();
+  scratch.start(n.size(), 0);
   for (std::size_t i = 0; i < 3; ++i)
     add_coordinate(n, Variables::color + i, kernel::rpf_distance_scale(sharpness, weights.color.alpha[i]), scratch);
   for (std::size_t k = 0; k < weights.beta.size(); ++k)
     add_coordinate(n, plan.variables.features() + k, kernel::rpf_distance_scale(sharpness, weights.beta[k]), scratch);
 }
 
-void collect_colors(const Plan& plan, const Neighborhood& n, const std::vector<float>& colors, FilterScratch& scratch) {
-  const std::size_t carried = plan.carried;
+void collect_colors(std::size_t carried, const Neighborhood& n, const std::vector<float>& colors,
+                    FilterScratch& scratch) {
   scratch.colors.assign(carried * scratch.padded, 0.0F);
   for (std::uint32_t j = 0; j < n.size(); ++j)
     for (std::size_t c = 0; c < carried; ++c)
@@ -108,18 +107,28 @@ ChannelMoments channel_moments(const float* filtered, std::uint32_t samples, std
 
 }  // namespace
 
+void FilterScratch::start(std::uint32_t neighbors, std::size_t active_) {
+  active = active_;
+  padded = (neighbors + RPF_LANES - 1) / RPF_LANES * RPF_LANES;
+  coordinates.assign(active * padded, 0.0F);
+}
+
 void filter_samples(const Plan& plan, const Neighborhood& n, std::uint32_t own, const FilterWeights& weights,
                     const std::vector<float>& colors, FilterScratch& scratch, float* out,
                     std::vector<float>* weights_out) {
-  scratch.padded = (n.size() + RPF_LANES - 1) / RPF_LANES * RPF_LANES;
   set_coordinates(plan, n, kernel::rpf_sharpness(weights.color.fraction_random, plan.noise, own), weights, scratch);
-  collect_colors(plan, n, colors, scratch);
+  average(plan.carried, n, own, colors, scratch, out, weights_out);
+}
+
+void average(std::size_t carried, const Neighborhood& n, std::uint32_t own, const std::vector<float>& colors,
+             FilterScratch& scratch, float* out, std::vector<float>* weights_out) {
+  collect_colors(carried, n, colors, scratch);
   WeightedSums sums, stretch;
   float block[RPF_LANES];
   for (std::uint32_t i = 0; i < own; ++i) {
-    sums.clear(plan.carried);
+    sums.clear(carried);
     for (std::uint32_t begin = 0; begin < n.size(); begin += RPF_LANES) {
-      if (begin % (RPF_STRETCH * RPF_LANES) == 0) stretch.clear(plan.carried);
+      if (begin % (RPF_STRETCH * RPF_LANES) == 0) stretch.clear(carried);
       block_weights(scratch, i, begin, n.size(), block);
       stretch.add(block, scratch, begin);
       if (weights_out)
@@ -128,9 +137,9 @@ void filter_samples(const Plan& plan, const Neighborhood& n, std::uint32_t own, 
       if (next % (RPF_STRETCH * RPF_LANES) == 0 || next >= n.size()) sums.add(stretch);
     }
     const float total = kernel::rpf_lanes_total(&sums.weight);
-    for (std::size_t c = 0; c < plan.carried; ++c)
-      out[i * plan.carried + c] = kernel::rpf_filtered(kernel::rpf_lanes_total(&sums.colors[c]), total,
-                                                       scratch.smallest[c], scratch.largest[c]);
+    for (std::size_t c = 0; c < carried; ++c)
+      out[i * carried + c] = kernel::rpf_filtered(kernel::rpf_lanes_total(&sums.colors[c]), total, scratch.smallest[c],
+                                                  scratch.largest[c]);
   }
 }
 

@@ -10,10 +10,13 @@ namespace rpf {
 
 /// Scratch of the filter. Columns are padded to whole blocks of RPF_LANES neighbors.
 struct FilterScratch {
-  std::vector<float> coordinates;        ///< [active variable][padded N] normalized values times their distance scale
+  std::vector<float> coordinates;        ///< [active variable][padded N] values times their distance scale
   std::vector<float> colors;             ///< [carried][padded N] c' of the neighbors
   std::vector<float> smallest, largest;  ///< [carried] over the neighbors
   std::size_t active = 0, padded = 0;
+
+  /// Makes room for `active` coordinates of so many neighbors, all 0.
+  void start(std::uint32_t neighbors, std::size_t active);
 };
 
 /// Filters the own samples of a pixel: out[s][carried] from the colors c' [sample][carried] of the whole frame.
@@ -21,6 +24,10 @@ struct FilterScratch {
 void filter_samples(const Plan& plan, const Neighborhood& n, std::uint32_t own, const FilterWeights& weights,
                     const std::vector<float>& colors, FilterScratch& scratch, float* out,
                     std::vector<float>* weights_out);
+
+/// The last step of filter_samples(): the means with the weights that the scratch's coordinates give.
+void average(std::size_t carried, const Neighborhood& n, std::uint32_t own, const std::vector<float>& colors,
+             FilterScratch& scratch, float* out, std::vector<float>* weights_out);
 
 /// Section 7, in place on the R, G, B of `samples` filtered samples [samples][carried].
 void replace_outliers(float* filtered, std::uint32_t samples, std::size_t carried);

@@ -164,6 +164,11 @@ void check_chunk(FileBytes& file, std::uint64_t offset, int y, const Window& win
 
 }  // namespace
 
+bool is_deep_exr(FileBytes& file) {
+  return file.size() >= 8 && file.u32(0, "the magic number") == exr_magic &&
+         (file.u32(4, "the version") & deep_flag) != 0;
+}
+
 std::uint64_t check_structure(FileBytes& file) {
   check_kind(file);
   // OpenEXR silently takes defaults for missing ones, so a damaged name would change the picture's place or size.

@@ -17,6 +17,9 @@ constexpr std::size_t max_channels = 1024;
 constexpr std::size_t max_attributes = 4096;
 constexpr std::uint64_t max_header_bytes = std::uint64_t{64} << 20;
 
+/// Whether the file begins like a deep OpenEXR file, of whatever kind.
+bool is_deep_exr(FileBytes& file);
+
 /// Checks that the file is one deep scan-line part whose header is whole, holds every required attribute and nothing
 /// beyond the limits. Returns the position behind the header, where the table of chunk offsets begins.
 /// Throws Error(input) that says what the file is instead.

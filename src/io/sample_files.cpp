@@ -7,6 +7,7 @@
 #include "io/atomic_file.h"
 #include "io/deep_reader.h"
 #include "io/deep_writer.h"
+#include "io/exr_structure.h"
 #include "io/raw_files.h"
 #include "io/raw_header.h"
 #include "rpf/error.h"
@@ -28,6 +29,11 @@ Kind kind_of_target(const std::string& path) {
 }
 
 }  // namespace
+
+bool is_sample_file(const std::string& path) {
+  io::FileBytes file(path);
+  return io::is_raw(path) || io::is_deep_exr(file);
+}
 
 SampleFileInfo inspect_samples(const std::string& path, const SampleReadOptions& options) {
   return io::is_raw(path) ? io::inspect_raw(path, options) : io::inspect_deep(path, options);

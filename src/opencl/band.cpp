@@ -27,8 +27,9 @@ std::uint64_t sample_count(const Frame& frame, const Rows& rows) {
 
 }  // namespace
 
-SampleFloats::SampleFloats(const Plan& plan)
-    : chunks((plan.variables.count() + plan.carried + RPF_LANES - 1) / RPF_LANES * RPF_LANES), carried(plan.carried) {}
+SampleFloats::SampleFloats(const Plan& plan) : chunks(plan.variables.count() + plan.carried), carried(plan.carried) {
+  if (plan.method == Method::rpf) chunks = (chunks + RPF_LANES - 1) / RPF_LANES * RPF_LANES;
+}
 
 std::uint64_t band_bytes(const Frame& frame, const SampleFloats& floats, const Rows& rows) {
   const std::size_t pixels = pixel_number(frame, rows.end) - pixel_number(frame, rows.begin);
@@ -68,7 +69,8 @@ Band make_band(Session& session, const BandSource& source, int pass, const Rows&
   band.first_samples = session.host_buffer(frame.first_sample.data() + begin, (end - begin + 1) * sizeof(std::uint32_t),
                                            CL_MEM_READ_ONLY);
   band.records = session.host_buffer(frame.record(first), record_bytes(frame, samples), CL_MEM_READ_ONLY);
-  band.chunks = session.buffer(std::max<std::uint64_t>(chunk_bytes(samples, source.floats), sizeof(float)));
+  // A vector more: box.cl reads whole ones, the last from the last sample on.
+  band.chunks = session.buffer(chunk_bytes(samples, source.floats) + RPF_LANES * sizeof(float));
   band.colors = session.host_buffer(source.colors.data() + first * source.floats.carried, colors, CL_MEM_READ_ONLY);
   band.next_colors =
       session.host_buffer(source.next_colors.data() + first * source.floats.carried, colors, CL_MEM_READ_WRITE);

@@ -25,15 +25,15 @@ struct Band {
   std::uint32_t samples = 0;
   cl::Buffer first_samples;  ///< [pixel + 1]
   cl::Buffer records;        ///< [sample][variables]
-  cl::Buffer chunks;         ///< [chunk][sample][RPF_LANES] the records as frame.cl lays them out, on the device
-  cl::Buffer colors;         ///< [sample][carried] c'
-  cl::Buffer next_colors;    ///< [sample][carried] c''
-  cl::Buffer statistics;     ///< [pixel]
+  cl::Buffer chunks;       ///< records and c' as the kernels read them: laid out on the device, by filter.cl or box.cl
+  cl::Buffer colors;       ///< [sample][carried] c'
+  cl::Buffer next_colors;  ///< [sample][carried] c''
+  cl::Buffer statistics;   ///< [pixel]
 };
 
 /// Floats a sample.
 struct SampleFloats {
-  std::size_t chunks = 0;  ///< of Band::chunks, whole vectors
+  std::size_t chunks = 0;  ///< of Band::chunks; for filter.cl whole vectors
   std::size_t carried = 0;
 
   explicit SampleFloats(const Plan& plan);

@@ -50,9 +50,24 @@ std::vector<std::uint32_t> draws_by_samples(const PassPlan& pass, std::uint32_t 
   return draws;
 }
 
+/// The coordinates of fixed weights, as two columns.
+std::vector<std::uint32_t> variables_of(const PassPlan& pass) {
+  std::vector<std::uint32_t> variables;
+  for (const Coordinate& c : pass.coordinates) variables.push_back(c.variable);
+  return variables;
+}
+
+std::vector<float> scales_of(const PassPlan& pass) {
+  std::vector<float> scales;
+  for (const Coordinate& c : pass.coordinates) scales.push_back(c.scale);
+  return scales;
+}
+
+int reach_of(const PassPlan& pass) { return (pass.box_width - 1) / 2; }
+
 /// The rows that a pass reads for a tile: also for pixels above it that measure for its first ones.
 Rows rows_read(const Plan& plan, int pass, const Window& tile) {
-  const int reach = (plan.passes[static_cast<std::size_t>(pass)].box_width - 1) / 2;
+  const int reach = reach_of(plan.passes[static_cast<std::size_t>(pass)]);
   const int first = tile.y / plan.statistics_block * plan.statistics_block;
   return {std::max(first - reach, 0), std::min(tile.y + tile.height + reach, plan.height)};
 }
@@ -79,9 +94,12 @@ void OpenClBackend::load(const Frame& frame, std::vector<float> colors, const Pl
   tables_.clear();
   if (plan.passes.empty()) return;
   on_device("preparing the filter", [&] {
-    const cl::Program& program = session_.program("filter.cl", definitions(frame, plan) + phases_);
-    kernel_ = cl::Kernel(program, "filter_tile");
-    layout_kernel_ = cl::Kernel(program, "lay_out_records");
+    const bool fixed = has_fixed_weights();
+    const cl::Program& program =
+        session_.program(fixed ? "box.cl" : "filter.cl", definitions(frame, plan) + (fixed ? "" : phases_));
+    kernel_ = cl::Kernel(program, fixed ? "filter_box" : "filter_tile");
+    layout_kernel_ = cl::Kernel(program, fixed ? "lay_out_columns" : "lay_out_records");
+    centers_ = session_.copy(plan.centers);
     rejection_factor_ = session_.copy(padded(plan.rejection_factor));
     minimum_tolerance_ = session_.copy(padded(plan.minimum_tolerance));
     scratch_ = std::make_unique<Scratch>(session_, plan, items_);
@@ -91,8 +109,16 @@ void OpenClBackend::load(const Frame& frame, std::vector<float> colors, const Pl
 const OpenClBackend::PassTables& OpenClBackend::tables(int pass) {
   while (tables_.size() <= static_cast<std::size_t>(pass)) {
     const PassPlan& p = plan_->passes[tables_.size()];
-    tables_.push_back({session_.copy(p.offsets), session_.copy(draws_by_samples(p, most_samples(frame_->first_sample))),
-                       session_.copy(p.entropy.units)});
+    PassTables t;
+    if (has_fixed_weights()) {
+      t.variables = session_.copy(variables_of(p));
+      t.scales = session_.copy(scales_of(p));
+    } else {
+      t.offsets = session_.copy(p.offsets);
+      t.draws = session_.copy(draws_by_samples(p, most_samples(frame_->first_sample)));
+      t.entropy = session_.copy(p.entropy.units);
+    }
+    tables_.push_back(t);
   }
   return tables_[static_cast<std::size_t>(pass)];
 }
@@ -111,16 +137,17 @@ const Band& OpenClBackend::band_for(int pass, const Rows& needed) {
     band_.reset();
     band_ = std::make_unique<Band>(
         make_band(session_, {*frame_, colors_, next_colors_, statistics_, SampleFloats(*plan_)}, pass, rows));
-    lay_out_records(*band_);
+    lay_out(*band_);
   }
   return *band_;
 }
 
-void OpenClBackend::lay_out_records(const Band& band) {
+void OpenClBackend::lay_out(const Band& band) {
   layout_kernel_.setArg(0, band.records);
   layout_kernel_.setArg(1, band.colors);
   layout_kernel_.setArg(2, band.chunks);
   layout_kernel_.setArg(3, band.samples);
+  if (has_fixed_weights()) layout_kernel_.setArg(4, centers_);
   session_.launch(layout_kernel_, items_, 1);
 }
 
@@ -150,29 +177,37 @@ kernel::rpf_pass OpenClBackend::arguments(int pass, const Window& tile, const Ba
   a.growth = p.growth;
   a.noise = plan_->noise;
   a.outlier_step = plan_->outlier_step ? 1 : 0;
+  a.reach = reach_of(p);
+  a.coordinates = static_cast<std::uint32_t>(p.coordinates.size());
   return a;
 }
 
-void OpenClBackend::launch(int pass, const Window& tile, const Band& band, std::size_t items, const Results& results) {
+std::vector<cl::Buffer> OpenClBackend::buffers(int pass, const Band& band, const Results& results) {
   const PassTables& t = tables(pass);
-  const cl::Buffer* buffers[] = {&band.first_samples,
-                                 &band.chunks,
-                                 &t.offsets,
-                                 &t.draws,
-                                 &t.entropy,
-                                 &rejection_factor_,
-                                 &minimum_tolerance_,
-                                 &scratch_->candidates,
-                                 &scratch_->neighbors,
-                                 &scratch_->columns,
-                                 &scratch_->planes,
-                                 &scratch_->colors,
-                                 &results.next_colors,
-                                 &results.statistics,
-                                 &results.trace_values,
-                                 &results.trace_histograms};
+  if (has_fixed_weights())
+    return {band.first_samples, band.chunks,      t.variables,         t.scales,           scratch_->neighbors,
+            scratch_->columns,  scratch_->colors, results.next_colors, results.statistics, results.trace_values};
+  return {band.first_samples,
+          band.chunks,
+          t.offsets,
+          t.draws,
+          t.entropy,
+          rejection_factor_,
+          minimum_tolerance_,
+          scratch_->candidates,
+          scratch_->neighbors,
+          scratch_->columns,
+          scratch_->planes,
+          scratch_->colors,
+          results.next_colors,
+          results.statistics,
+          results.trace_values,
+          results.trace_histograms};
+}
+
+void OpenClBackend::launch(int pass, const Window& tile, const Band& band, std::size_t items, const Results& results) {
   cl_uint number = 0;
-  for (const cl::Buffer* buffer : buffers) kernel_.setArg(number++, *buffer);
+  for (const cl::Buffer& buffer : buffers(pass, band, results)) kernel_.setArg(number++, buffer);
   kernel_.setArg(number, arguments(pass, tile, band));
   session_.launch(kernel_, items, 1);
 }

@@ -1,4 +1,4 @@
-// The OpenCL backend: the kernels of kernels/filter.cl, band by band. The same bits as the reference.
+// The OpenCL backend: the kernels of kernels/filter.cl or kernels/box.cl, band by band. The same bits as the reference.
 #pragma once
 
 #include "backend.h"
@@ -32,9 +32,10 @@ class OpenClBackend : public Backend {
   PixelTrace trace(int pass, std::uint32_t pixel) override;
 
  private:
-  /// What stays on the device for a pass: the plan's tables.
+  /// What stays on the device for a pass: the plan's tables, or the coordinates of fixed weights.
   struct PassTables {
     cl::Buffer offsets, draws, entropy;
+    cl::Buffer variables, scales;
   };
 
   /// What a launch writes. Without a trace its buffers are null.
@@ -45,7 +46,10 @@ class OpenClBackend : public Backend {
   const PassTables& tables(int pass);
   BandLimit band_limit() const;
   const Band& band_for(int pass, const Rows& needed);
-  void lay_out_records(const Band& band);
+  bool has_fixed_weights() const { return plan_->method != Method::rpf; }  ///< box.cl in place of filter.cl
+  void lay_out(const Band& band);
+  /// The arguments of filter_tile or filter_box, without the last one.
+  std::vector<cl::Buffer> buffers(int pass, const Band& band, const Results& results);
   kernel::rpf_pass arguments(int pass, const Window& tile, const Band& band) const;
   void launch(int pass, const Window& tile, const Band& band, std::size_t items, const Results& results);
   void run_halves(int pass, const Window& tile);
@@ -55,14 +59,14 @@ class OpenClBackend : public Backend {
   Session& session_;
   std::uint64_t band_bytes_;
   std::string phases_;  ///< definition for kernels/filter.cl
-  std::size_t items_;  ///< work-items that run at once
+  std::size_t items_;   ///< work-items that run at once
   const Frame* frame_ = nullptr;
   const Plan* plan_ = nullptr;
   std::vector<float> colors_, next_colors_;  ///< c' and c'': [sample][carried]
   std::vector<PixelStatistics> statistics_;  ///< [pixel]
 
   cl::Kernel kernel_, layout_kernel_;
-  cl::Buffer rejection_factor_, minimum_tolerance_;
+  cl::Buffer rejection_factor_, minimum_tolerance_, centers_;
   std::vector<PassTables> tables_;  ///< of the passes so far
   std::unique_ptr<Scratch> scratch_;
   std::unique_ptr<Band> band_;  ///< last: it refers to the colors

@@ -12,8 +12,9 @@ ScratchSizes::ScratchSizes(const Plan& plan) {
   const std::uint32_t blocks = kernel::rpf_blocks(neighbors);
   const std::size_t variables = plan.variables.count(), bins = 2 * static_cast<std::size_t>(plan.half_bins) + 1;
   capacity = blocks * RPF_LANES;
+  if (plan.method != Method::rpf) capacity += RPF_LANES;  // box.cl copies whole vectors
   column_floats = variables * capacity;
-  plane_words = variables * bins * ((blocks + 31) / 32 * RPF_LANES);
+  plane_words = plan.method != Method::rpf ? 1 : variables * bins * ((blocks + 31) / 32 * RPF_LANES);
   color_floats = plan.carried * capacity;
 }
 

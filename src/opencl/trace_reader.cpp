@@ -81,17 +81,25 @@ std::vector<std::uint8_t> TraceReader::bins(const Scratch& scratch, std::uint32_
 }
 
 PixelTrace TraceReader::read(const Scratch& scratch, std::uint32_t neighbors, std::vector<float> colors) {
-  const std::size_t variables = plan_.variables.count(), features = feature_count(plan_);
   const std::vector<float> values = session_.read<float>(values_, 0, at_.weights + std::size_t{own_} * neighbors);
   PixelTrace t = empty_trace(pass_, pixel_);
-  t.shift = part(values, at_.shift, variables);
   t.neighbors = session_.read<std::uint32_t>(scratch.neighbors, 0, neighbors);
+  if (plan_.method == Method::rpf) read_statistics(scratch, values, t);
+  t.filtered = part(values, at_.filtered, own_ * plan_.carried);
+  t.weights = part(values, at_.weights, std::size_t{own_} * neighbors);
+  t.colors = std::move(colors);
+  return t;
+}
+
+void TraceReader::read_statistics(const Scratch& scratch, const std::vector<float>& values, PixelTrace& t) {
+  const std::size_t variables = plan_.variables.count(), features = feature_count(plan_);
+  t.shift = part(values, at_.shift, variables);
   t.own_mean = part(values, at_.own_mean, features);
   t.own_deviation = part(values, at_.own_deviation, features);
   t.tolerance = part(values, at_.tolerance, features);
   t.mean = part(values, at_.mean, variables);
   t.inverse_deviation = part(values, at_.inverse_deviation, variables);
-  t.normalized = normalized(scratch, neighbors);
+  t.normalized = normalized(scratch, static_cast<std::uint32_t>(t.neighbors.size()));
   t.bins = bins(scratch, static_cast<std::uint32_t>(values[at_.measured]));
   t.histograms = session_.read<std::uint32_t>(
       histograms_, 0,
@@ -104,10 +112,6 @@ PixelTrace TraceReader::read(const Scratch& scratch, std::uint32_t neighbors, st
   t.filter_weights.feature_fraction_random = part(values, at_.feature_fraction_random, features);
   t.filter_weights.fraction_feature = part(values, at_.fraction_feature, features);
   t.filter_weights.beta = part(values, at_.beta, features);
-  t.filtered = part(values, at_.filtered, own_ * plan_.carried);
-  t.weights = part(values, at_.weights, std::size_t{own_} * neighbors);
-  t.colors = std::move(colors);
-  return t;
 }
 
 }  // namespace rpf

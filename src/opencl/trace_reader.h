@@ -24,6 +24,8 @@ class TraceReader {
   PixelTrace read(const Scratch& scratch, std::uint32_t neighbors, std::vector<float> colors);
 
  private:
+  /// Sections 3 to 5 but the neighbors, which are known.
+  void read_statistics(const Scratch& scratch, const std::vector<float>& values, PixelTrace& t);
   std::vector<float> part(const std::vector<float>& values, std::uint32_t at, std::size_t count) const;
   std::vector<float> normalized(const Scratch& scratch, std::uint32_t neighbors);
   std::vector<std::uint8_t> bins(const Scratch& scratch, std::uint32_t neighbors);

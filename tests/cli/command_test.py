@@ -127,6 +127,38 @@ class CommandTest(CommandCase):
                      b"spread-spikes=true polish=0.15"):
             self.assertIn(name, header)
 
+    def test_methods_filter_samples_and_say_so(self):
+        self.expect(run(EXAMPLE, "-o", self.output, "-v", "--method", "cross-bilateral", "--sigma-feature", "0.25"), 0,
+                    "method: cross-bilateral", "features: N.X")
+        header = self.output.read_bytes()[:4096]
+        for name in (b"rpf:method", b"cross-bilateral", b"rpf:sigmaFeature\0float\0\x04\0\0\0\0\0\x80\x3e"):  # 0.25
+            self.assertIn(name, header)
+        self.assertNotIn(b"rpf:noise", header)
+
+    def test_gaussian_and_bilateral_filter_any_image(self):
+        image, gray, flat = self.folder / "in.png", self.folder / "out.jpg", self.folder / "flat.exr"
+        self.expect(run(EXAMPLE, "-o", image, "--boxes", "none"), 0)
+        before = error_of(run("compare", image, REFERENCE))[0]
+        for method, output in (("gaussian", self.output), ("bilateral", self.folder / "out.png"), ("gaussian", gray)):
+            self.expect(run(image, "-o", output, "--method", method, "--boxes", "5", "-v"), 0, f"method: {method}")
+            self.assertLess(error_of(run("compare", output, REFERENCE))[0], before)
+        self.expect(run(EXAMPLE, "-o", flat, "--boxes", "none"), 0)
+        self.expect(run(flat, "-o", self.output, "--method", "gaussian", "--boxes", "none"), 0)
+        self.assertEqual(error_of(run("compare", self.output, flat))[1], 0)
+        for method in ("cross-bilateral", "rpf"):
+            for file in (image, flat):
+                self.expect(run(file, "-o", self.output, "--method", method), 3, "one list entry for every Monte Carlo sample")
+        self.expect(run(image, "-o", self.output, "--method", "gaussian", "--map", "R=G"), 2, "is an image")
+
+    def test_refuses_options_that_mean_nothing_to_the_method(self):
+        for method, option in (("gaussian", ["--noise", "1"]), ("bilateral", ["--preset", "fast"]),
+                               ("cross-bilateral", ["--profile", "paper"]), ("gaussian", ["--features", "N"]),
+                               ("gaussian", ["--sigma-color", "1"]), ("bilateral", ["--sigma-feature", "1"]),
+                               ("rpf", ["--sigma-color", "1"]), ("gaussian", ["--time-budget", "1s"])):
+            self.expect(run(EXAMPLE, "-o", self.output, "--method", method, *option), 2, option[0], "means nothing to")
+        self.expect(run(EXAMPLE, "-o", self.output, "--method", "median"), 2, "median", "cross-bilateral")
+        self.expect_nothing_written()
+
     def test_starts_without_the_libraries_of_other_image_formats(self):
         libraries = subprocess.run(["ldd", RPF], capture_output=True, text=True, check=True).stdout
         self.assertIn("libOpenEXR", libraries)

@@ -10,7 +10,7 @@ SETTINGS = {"profile": "thesis", "boxes": [9, 7, 5, 3], "noise": 0.02, "bins": 7
             "random": ["lens", "time"], "features": ["N", "P", "albedo"], "samples_factor": None, "max_samples": None,
             "neighbors_factor": None, "statistics_block": 1, "statistics_samples": None, "position_scale": 20,
             "reject_second_hit": False, "bias_correction": False, "alpha_factor": 2, "redraws": 8,
-            "spread_spikes": False}
+            "spread_spikes": False, "method": "rpf", "sigma_color": 30, "sigma_feature": 0.5}
 
 
 def uniform(rng, n):
@@ -176,6 +176,30 @@ def still_scene(channels, rng, counts):
     channels["feature.N.Y"] = np.zeros(len(channels["R"]))
 
 
+def fixed(method, seed, **keywords):
+    """A case of a method with fixed weights; features only where it knows them."""
+    keywords = {"boxes": [7, 3], "sigma_color": 0.2, "features": ["N", "P", "albedo"], "random": [], **keywords}
+    if method != "cross-bilateral":
+        keywords["features"] = []
+    return (varying if "varying" in keywords and keywords.pop("varying") else simple)(seed, method=method, **keywords)
+
+
+FIXED_CASES = {
+    "gaussian": lambda: fixed("gaussian", 50),
+    "gaussian_varying": lambda: fixed("gaussian", 51, varying=True),
+    "gaussian_box15": lambda: fixed("gaussian", 52, boxes=[15]),        # larger than the image
+    "bilateral": lambda: fixed("bilateral", 53),
+    "bilateral_spp1": lambda: fixed("bilateral", 54, spp=1),
+    "bilateral_gaps": lambda: fixed("bilateral", 55, spp=with_gaps(55), sigma_color=0.05),
+    "bilateral_hdr": lambda: fixed("bilateral", 56, change=add_weighted_fireflies, sigma_color=3000),
+    "bilateral_1e-30": lambda: fixed("bilateral", 57, change=scaled_radiance(1e-30), sigma_color=2e-29),
+    "bilateral_1e30": lambda: fixed("bilateral", 57, change=scaled_radiance(1e30), sigma_color=2e29),
+    "cross_bilateral": lambda: fixed("cross-bilateral", 58),
+    "cross_bilateral_varying": lambda: fixed("cross-bilateral", 59, varying=True, sigma_feature=0.2),
+    "cross_bilateral_missing": lambda: fixed("cross-bilateral", 60, change=lose_values, features=["N", "P", "albedo", "uv"]),
+    "cross_bilateral_far": lambda: fixed("cross-bilateral", 61, change=move_world, features=["P"], sigma_feature=0.3),
+}
+
 CASES = {
     "spp1_thesis": lambda: simple(11, spp=1, position_scale=1),
     "spp1_paper": lambda: simple(12, spp=1, position_scale=1, profile="paper", change=still_scene),
@@ -220,6 +244,7 @@ CASES = {
                                      spread_spikes=True),
     "one_pixel": lambda: simple(33, 1, 1, spp=5, profile="paper", boxes=[5, 3]),
     "one_row": lambda: simple(34, 13, 1, profile="paper", random=["lens", "light"]),
+    **FIXED_CASES,
 }
 
 

@@ -22,6 +22,7 @@ except ImportError:
 sys.dont_write_bytecode = True      # the source folder stays clean
 import cases
 import draw_statistics
+import fixed_weights
 import oracle
 import scene_frame
 from report import Report
@@ -305,7 +306,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         trace = trace_of(options.tool, case, folder)
     try:
-        report = compare(case, trace)
+        report = (compare if case["settings"]["method"] == "rpf" else fixed_weights.compare)(case, trace)
     except KeyError as missing:
         print(f"the trace lacks {missing}")
         return 1

@@ -3,7 +3,7 @@ import numpy as np
 
 STAGES = ["variables", "draws", "start", "own_mean", "own_std", "tolerance", "neighbors", "mean", "std", "normalized", "bins",
           "histograms", "mutual_information", "W_c_r", "W_f_r", "W_c_f", "fraction_random", "alpha", "beta",
-          "filtered", "color", "image"]
+          "weights", "filtered", "color", "image"]
 
 
 class Report:

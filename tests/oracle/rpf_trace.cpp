@@ -29,6 +29,9 @@ std::optional<T> optional(const json& settings, const char* key) {
 rpf::Settings read_settings(const json& s) {
   rpf::Settings settings;
   if (const char* backend = std::getenv("RPF_TEST_BACKEND")) settings.backend = backend;
+  settings.method = rpf::method_settings(s.at("method")).method;
+  settings.sigma_color = s.at("sigma_color");
+  settings.sigma_feature = s.at("sigma_feature");
   settings.profile = s.at("profile") == "paper" ? rpf::Profile::paper : rpf::Profile::thesis;
   settings.box_widths = s.at("boxes").get<std::vector<int>>();
   settings.noise = s.at("noise");
@@ -159,18 +162,27 @@ void write_dependencies(json& out, const Plan& plan, const PixelTrace& t) {
   out["beta"] = t.filter_weights.beta;
 }
 
-/// `start`: c' of the pixel's own samples as the pass starts, [own][carried].
-json write_pixel(const Plan& plan, const PixelTrace& t, const std::vector<float>& start, float scale) {
-  const auto width = static_cast<std::uint32_t>(plan.width);
-  json out = {
-      {"x", t.pixel % width}, {"y", t.pixel / width}, {"own_mean", json::array()}, {"tolerance", json::array()}};
-  const std::size_t own = start.size() / plan.carried;
-  out["draws"] = draws_of(plan, t.pass, t.pixel, static_cast<std::uint32_t>(own));
-  out["start"] = unscaled(start, plan.carried, scale);
+/// Sections 3 to 5 of a pixel with so many samples.
+void write_stages(json& out, const Plan& plan, const PixelTrace& t, std::uint32_t own, float scale) {
+  out["own_mean"] = out["tolerance"] = json::array();
+  out["draws"] = draws_of(plan, t.pass, t.pixel, own);
   write_neighborhood(out, plan, t);
   write_statistics(out, plan, t, scale);
   write_bins(out, plan, t);
   write_dependencies(out, plan, t);
+}
+
+/// `start`: c' of the pixel's own samples as the pass starts, [own][carried].
+json write_pixel(const Plan& plan, const PixelTrace& t, const std::vector<float>& start, float scale) {
+  const auto width = static_cast<std::uint32_t>(plan.width);
+  json out = {{"x", t.pixel % width}, {"y", t.pixel / width}};
+  out["start"] = unscaled(start, plan.carried, scale);
+  if (plan.method == rpf::Method::rpf) {
+    write_stages(out, plan, t, static_cast<std::uint32_t>(start.size() / plan.carried), scale);
+  } else {
+    out["neighbors"] = t.neighbors;
+    out["weights"] = t.weights;
+  }
   out["filtered"] = unscaled(t.filtered, plan.carried, scale);
   out["color"] = unscaled(t.colors, plan.carried, scale);
   return out;

@@ -30,6 +30,12 @@ TOLERANCE = {
     # deviation, or this part of the value (float32 error of the filtered colors)
     "outlier": 3e-6,
     "outlier_value": 1e-6,
+    # fixed weights, section 8: float32's rounding of coordinates, of their differences and of the exponent, in units of
+    # slack = w (1 + d^2 + d * largest coordinate), and the weights that rpf_exp sets to 0
+    "fixed_weight": 5e-7,
+    "fixed_least": 1e-37,
+    # relative to the brightest value of the frame: the weights' errors in a mean
+    "fixed_color": 2e-6,
     # standard deviations of chance; 6 happens once in 1e9
     "draw_statistics": 6.0,
 }

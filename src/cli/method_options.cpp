@@ -1,0 +1,63 @@
+#include "cli/method_options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "rpf/error.h"
+#include "rpf/methods.h"
+
+namespace rpf::cli {
+namespace {
+
+/// Options, and the only methods that they mean something to.
+struct Limited {
+  std::vector<const char*> options;
+  std::vector<Method> methods;
+};
+
+const Limited limited[] = {
+    {{"--preset", "--time-budget", "--profile", "--samples-factor", "--max-samples", "--neighbors-factor",
+      "--statistics-block", "--statistics-samples", "--noise", "--bins", "--random", "--drop-uninformative", "--seed",
+      "--alpha-factor", "--position-scale", "--redraws", "--reject-second-hit", "--bias-correction"},
+     {Method::rpf}},
+    {{"--features"}, {Method::rpf, Method::cross_bilateral}},
+    {{"--sigma-color"}, {Method::bilateral, Method::cross_bilateral}},
+    {{"--sigma-feature"}, {Method::cross_bilateral}},
+};
+
+void check_given_options(const CLI::App& app, Method method) {
+  for (const Limited& group : limited) {
+    if (std::find(group.methods.begin(), group.methods.end(), method) != group.methods.end()) continue;
+    std::vector<std::string> names;
+    for (const Method m : group.methods) names.push_back(name_of(m));
+    for (const char* option : group.options)
+      if (app.count(option) > 0)
+        throw Error(ErrorKind::usage, fmt::format("{} means nothing to --method {}, only to {}; leave it out", option,
+                                                  name_of(method), fmt::join(names, " and ")));
+  }
+}
+
+}  // namespace
+
+void add_method_options(CLI::App& app, FilterOptions& o) {
+  app.add_option(
+         "--method", o.method,
+         "rpf; gaussian: weights from the distance on the film; bilateral: and from the color; cross-bilateral: "
+         "and from the features. gaussian and bilateral also filter any image")
+      ->check(CLI::IsMember(method_names()))
+      ->capture_default_str();
+  app.add_option("--sigma-color", o.sigma_color,
+                 "Standard deviation of the color, in linear radiance as the file has it")
+      ->check(CLI::PositiveNumber)
+      ->default_str(fmt::format("{:g}, of an image {:g}", Settings{}.sigma_color, image_sigma_color));
+  app.add_option("--sigma-feature", o.settings.sigma_feature,
+                 "Standard deviation of a feature, 1 is that of its group over the frame")
+      ->capture_default_str();
+  app.parse_complete_callback([&app, &o] { check_given_options(app, method_settings(o.method).method); });
+}
+
+bool filters_images(Method method) { return method == Method::gaussian || method == Method::bilateral; }
+
+}  // namespace rpf::cli
