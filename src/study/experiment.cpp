@@ -15,6 +15,8 @@ const std::vector<Experiment>& experiments() {
        plan_features, tell_features},
       {"effects", "4 samples a pixel, filtered, reference: lens, shutter, area light, gloss, all at once", plan_effects,
        tell_effects},
+      {"methods", "Gaussian, bilateral and cross-bilateral filter against Random Parameter Filtering", plan_methods,
+       tell_methods},
       {"textures", "the known weakness: a texture that looks like noise is taken for noise", plan_textures,
        tell_textures},
       {"spp", "how many samples the filter is worth: error against 1 to 64 samples a pixel", plan_spp, tell_spp},

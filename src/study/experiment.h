@@ -51,6 +51,8 @@ std::vector<Run> plan_features(const Extent& extent);
 void tell_features(const Findings& findings, Story& story);
 std::vector<Run> plan_effects(const Extent& extent);
 void tell_effects(const Findings& findings, Story& story);
+std::vector<Run> plan_methods(const Extent& extent);
+void tell_methods(const Findings& findings, Story& story);
 std::vector<Run> plan_textures(const Extent& extent);
 void tell_textures(const Findings& findings, Story& story);
 std::vector<Run> plan_spp(const Extent& extent);

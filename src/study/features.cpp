@@ -25,6 +25,7 @@ struct Choice {
 constexpr Choice choices[] = {{"normals and positions", " --features N,P"},
                               {"normals", " --features N"},
                               {"positions", " --features P"},
+                              {"positions, narrow", " --features P --position-scale 100"},
                               {"no features", " --features none"},
                               {"all of the file", ""}};
 
@@ -55,15 +56,21 @@ Verdict column_texture(const Measure& contrast) {
   const double n = contrast.of("normals"), p = contrast.of("positions");
   return {
       "On the column positions alone keep the texture, normals alone smear it",
-      fmt::format("of the contrast of the bricks positions keep {:.2f}, normals {:.2f}", p, n),
+      fmt::format("of the detail of the bricks positions keep {:.2f}, normals {:.2f}", p, n),
       p > n + 0.1 ? verdict_of(p > 0.8) + (p > 0.8 ? "" : ": positions keep more, but not much") : verdict_of(false)};
 }
 
-Verdict menger_edge(const Measure& step) {
+Verdict menger_edge(const Measure& step, const Measure& detail) {
   const double n = step.of("normals"), p = step.of("positions");
-  return {"On the sponge it is the other way round: positions alone keep the edge, normals alone lose it",
-          fmt::format("of the step in brightness at the front edge normals keep {:.2f}, positions {:.2f}", n, p),
-          verdict_of(p > n)};
+  const double normals_holes = detail.of("normals"), positions_holes = detail.of("positions");
+  const bool edge_holds = p > n, holes_hold = positions_holes > normals_holes;
+  return {"On the sponge it is the other way round: positions alone keep what normals alone lose",
+          fmt::format("of the step in brightness at the front edge positions keep {:.2f}, normals {:.2f}; of the holes "
+                      "{:.2f} and {:.2f}",
+                      p, n, positions_holes, normals_holes),
+          edge_holds == holes_hold ? verdict_of(edge_holds)
+          : edge_holds             ? "for the edge only"
+                                   : "for the holes only"};
 }
 
 Verdict menger_error(const Measure& error) {
@@ -98,21 +105,22 @@ std::vector<Run> plan_features(const Extent& extent) {
 }
 
 void tell_features(const Findings& findings, Story& story) {
-  story.verdicts({column_corner({story, findings, "column", corner, kept_profile}),
-                  column_texture({story, findings, "column", bricks, kept_contrast}),
-                  menger_edge({story, findings, "menger", edge, kept_profile}),
-                  menger_error({story, findings, "menger", sponge, region_error}), together(findings)});
+  story.verdicts(
+      {column_corner({story, findings, "column", corner, kept_step}),
+       column_texture({story, findings, "column", bricks, kept_detail}),
+       menger_edge({story, findings, "menger", edge, kept_step}, {story, findings, "menger", holes, kept_detail}),
+       menger_error({story, findings, "menger", sponge, region_error}), together(findings)});
   story.paragraph(
-      "Contrast kept: the slope of the image's luminance over the reference's in a region; 1 is all of it, 0 none. "
-      "Step "
-      "kept: the same of the means of the region's columns, so that only what is upright counts.");
+      "Detail kept: the slope of the image's luminance over the reference's in a region, each less its mean around the "
+      "pixel; 1 is all of it, 0 none. Step kept: the slope of the means of the region's columns, so that only what is "
+      "upright counts.");
   story.heading("A column with a corner");
   story.pictures(findings.on("column"), Region{"", -0.125, -0.156, 0.3125, 0.25});
   story.runs(findings.on("column"),
-             {story.profile_in(corner), story.error_in(corner), story.contrast_in(bricks), story.error_in(bricks)});
+             {story.step_in(corner), story.error_in(corner), story.detail_in(bricks), story.error_in(bricks)});
   story.heading("A Menger sponge in a Cornell box");
   story.pictures(findings.on("menger"), Region{"", -0.19, -0.06, 0.4, 0.3});
-  story.runs(findings.on("menger"), {story.profile_in(edge), story.error_in(edge), story.contrast_in(holes),
+  story.runs(findings.on("menger"), {story.step_in(edge), story.error_in(edge), story.detail_in(holes),
                                      story.error_in(holes), story.error_in(sponge), story.error_in(lamp)});
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "rpf/metrics.h"
@@ -32,9 +33,24 @@ std::vector<double> column_means(const Image& image, const Window& part) {
 }
 
 double mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// The part of a square around (x, y) that is inside the frame.
+Window square_around(int x, int y, int radius, const Window& frame) {
+  const int left = std::max(x - radius, 0), top = std::max(y - radius, 0);
+  return {left, top, std::min(x + radius + 1, frame.width) - left, std::min(y + radius + 1, frame.height) - top};
+}
+
+/// Luminances less what is around them.
+std::vector<double> details(const Image& image, const Window& part) {
+  const int radius = std::max(image.data_window.width / 32, 1);
+  std::vector<double> values = luminances(image, part);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const int x = part.x + static_cast<int>(i) % part.width, y = part.y + static_cast<int>(i) / part.width;
+    values[i] -= mean(luminances(image, square_around(x, y, radius, image.data_window)));
+  }
+  return values;
 }
 
 double slope(const std::vector<double>& image, const std::vector<double>& reference) {
@@ -67,12 +83,12 @@ double region_error(const Image& image, const Image& reference, const Region& re
   return sum / static_cast<double>(part.pixel_count());
 }
 
-double kept_contrast(const Image& image, const Image& reference, const Region& region) {
+double kept_detail(const Image& image, const Image& reference, const Region& region) {
   const Window part = window_of(region, reference.data_window);
-  return slope(luminances(image, part), luminances(reference, part));
+  return slope(details(image, part), details(reference, part));
 }
 
-double kept_profile(const Image& image, const Image& reference, const Region& region) {
+double kept_step(const Image& image, const Image& reference, const Region& region) {
   const Window part = window_of(region, reference.data_window);
   return slope(column_means(image, part), column_means(reference, part));
 }

@@ -14,9 +14,13 @@ struct Method {
   int most_samples;  ///< of the full study: what takes too long beyond is left out
 };
 
-constexpr Method methods[] = {{"plain mean", plain_mean, 64},        {"thesis", "--profile thesis", 64},
-                              {"paper", "--profile paper", 16},      {"fast", "--preset fast", 64},
-                              {"balanced", "--preset balanced", 64}, {"high", "--preset high", 16}};
+constexpr Method methods[] = {{"plain mean", plain_mean, 64},
+                              {"thesis", "--profile thesis", 64},
+                              {"paper", "--profile paper", 16},
+                              {"Gaussian", "--method gaussian", 64},
+                              {"cross-bilateral", "--method cross-bilateral", 64},
+                              {"balanced", "--preset balanced", 64},
+                              {"high", "--preset high", 16}};
 
 std::vector<int> counts(bool quick) {
   return quick ? std::vector<int>{1, 4, 16} : std::vector<int>{1, 2, 4, 8, 16, 32, 64};

@@ -120,8 +120,8 @@ Column Story::measure_in(const Region& region, const char* name,
 }
 
 Column Story::error_in(const Region& region) { return measure_in(region, "relMSE", region_error); }
-Column Story::contrast_in(const Region& region) { return measure_in(region, "contrast kept", kept_contrast); }
-Column Story::profile_in(const Region& region) { return measure_in(region, "step kept", kept_profile); }
+Column Story::detail_in(const Region& region) { return measure_in(region, "detail kept", kept_detail); }
+Column Story::step_in(const Region& region) { return measure_in(region, "step kept", kept_step); }
 
 void Story::write(const std::string& stem) {
   std::set<std::string> scenes;

@@ -51,8 +51,8 @@ class Story {
 
   /// The measure of a region as a column; its numbers stand in the JSON too.
   Column error_in(const Region& region);
-  Column contrast_in(const Region& region);
-  Column profile_in(const Region& region);
+  Column detail_in(const Region& region);
+  Column step_in(const Region& region);
   double number_in(const Outcome& outcome, const Region& region,
                    double (*measure)(const Image&, const Image&, const Region&));
 
