@@ -3,10 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "rpf/error.h"
 
 namespace rpf::study {
+
+double Outcome::error(const char* name) const {
+  const nlohmann::ordered_json& number = line.at("error").at(name);
+  return number.is_number() ? number.get<double>() : std::nan("");  // JSON has no NaN
+}
 
 std::vector<std::string> Findings::scenes() const {
   std::vector<std::string> names;

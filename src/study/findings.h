@@ -15,8 +15,8 @@ struct Outcome {
   nlohmann::ordered_json line;  ///< of the results file
   std::string image;            ///< file of the filtered image; the reference is run.frame.reference
 
-  /// One of the errors that docs/commands.md lists under "compare".
-  double error(const char* name) const { return line.at("error").at(name).get<double>(); }
+  /// One of the errors that docs/commands.md lists under "compare"; NaN where it is not defined.
+  double error(const char* name) const;
   double cpu() const { return line.at("cpu").get<double>(); }  ///< seconds
 };
 
