@@ -16,7 +16,7 @@ struct Method {
 
 constexpr Method methods[] = {{"plain mean", plain_mean, 64},
                               {"thesis", "--profile thesis", 16},
-                              {"paper", "--profile paper", 16},
+                              {"paper", "--profile paper", 8},
                               {"Gaussian", "--method gaussian", 64},
                               {"cross-bilateral", "--method cross-bilateral", 64},
                               {"balanced", "--preset balanced", 64},
