@@ -137,8 +137,7 @@ class Run {
   PassReport run_pass(int pass, ProgressMeter& meter) {
     const PassPlan& plan = plan_.passes[static_cast<std::size_t>(pass)];
     const double start = meter.seconds();
-    const std::size_t size =
-        control_.tile_pixels > 0 ? control_.tile_pixels : tile_pixels(plan.max_neighbors, threads_);
+    const std::size_t size = control_.tile_pixels > 0 ? control_.tile_pixels : tile_pixels(plan, threads_);
     meter.add(pass, 0);
     for (const Window& tile : cut(plan.region, size, plan_.statistics_block)) {
       backend_->run(pass, tile);

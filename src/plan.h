@@ -42,8 +42,9 @@ struct PassPlan {
   std::vector<std::int8_t> offsets;       ///< offset_table(box_width)
   EntropyTable entropy;
   float nats_per_unit = 0;  ///< ln 2 / entropy.units_per_bit
-  std::vector<Coordinate>
-      coordinates;  ///< of a method with fixed weights, which needs nothing between box_width and here
+  // Of a method with fixed weights, which needs box_width and max_neighbors of the others.
+  std::vector<Coordinate> coordinates;
+  std::uint64_t fixed_weights = 0;  ///< of a pixel at most: own samples times neighbors
   Window region;  ///< pixels to filter in this pass, frame coordinates (the crop and what later passes need around it)
 };
 

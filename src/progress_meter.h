@@ -8,8 +8,8 @@
 
 namespace rpf {
 
-/// Pixels for one call of the backend: about half a second of work at `neighbors` neighbors a pixel.
-std::size_t tile_pixels(std::uint32_t neighbors, int threads);
+/// Pixels for one call of the backend: about half a second of work in this pass.
+std::size_t tile_pixels(const PassPlan& pass, int threads);
 
 class ProgressMeter {
  public:

@@ -10,7 +10,7 @@
 
 namespace rpf {
 
-/// algorithm.md, section 8.
+/// algorithm.md, sections 3 and 7.
 enum class Profile {
   thesis,  ///< M = b^2 / 2 samples a neighborhood; also the position inside the pixel is a random parameter
   paper    ///< M = b^2 s / 2, and the outlier step after every pass

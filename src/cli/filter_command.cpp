@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "bench/frame_run.h"
@@ -110,6 +111,12 @@ void check_usage(const FilterOptions& options) {
     throw Error(ErrorKind::usage, "no output: name the image to write with -o, as in -o filtered.exr");
 }
 
+void check_features(const FilterOptions& options, const SampleFileInfo& info) {
+  const auto is_feature = [](const SampleFileChannel& channel) { return is_feature_slot(channel.slot); };
+  if (!options.aov.empty() && std::none_of(info.channels.begin(), info.channels.end(), is_feature))
+    throw Error(ErrorKind::usage, fmt::format("--aov: \"{}\" has no features; leave it out", info.path));
+}
+
 /// The settings of the preset that fits into what is left of the time budget, with the options given beside it.
 Settings settings_within(double seconds, const SampleBuffer& samples, const Settings& settings,
                          const FilterOptions& options, const std::vector<std::string>& arguments) {
@@ -142,6 +149,7 @@ int run(const FilterOptions& options, const std::vector<std::string>& arguments)
   FilterInput input = open_input(options.input, settings.method, read_options);
   const SampleFileInfo& info = input.info;
   if (input.image && options.sigma_color == 0) settings.sigma_color = image_sigma_color;
+  check_features(options, info);
   check_budget(info, settings, options.verbose || options.dry_run);
   if (!options.output.empty()) check_target(options.output);
   if (!options.aov.empty() && !is_folder(options.aov)) check_target(options.aov);

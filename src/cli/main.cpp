@@ -16,6 +16,7 @@ constexpr const char* footer = R"(Examples:
   rpf --preset high render.samples.exr -o filtered.png
   rpf --time-budget 10s render.samples.exr -o filtered.exr
   rpf --backend=auto render.samples.exr -o filtered.exr
+  rpf --method bilateral picture.png -o filtered.png
   rpf info render.samples.exr
   rpf compare before.exr filtered.exr reference.exr --side-by-side picture.png
   rpf merge seed-1.samples.exr seed-2.samples.exr -o both.samples.exr

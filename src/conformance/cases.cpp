@@ -1,12 +1,9 @@
-#include "conformance/cases.h"
+#include "conformance/case_list.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
-#include <utility>
-
-#include "rpf/methods.h"
 
 namespace rpf {
 namespace {
@@ -14,40 +11,34 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Builds the list: every case once for each profile.
-class CaseList {
- public:
-  std::vector<ConformanceCase> cases;
-
-  /// The case of most groups: a frame that is quick, and large enough for a box of 21 to be cut on all sides.
-  static ConformanceCase basic(const std::string& scene = "dof", int samples = 4) {
-    ConformanceCase c;
-    c.scene = scene;
-    c.options.width = 25;
-    c.options.height = 18;
-    c.options.samples = samples == varying ? 3 : samples;
-    c.options.adaptive = samples == varying;
-    c.settings.box_widths = {15, 7};
-    return c;
-  }
-
-  void add(const std::string& name, ConformanceCase c) {
-    for (const Profile profile : {Profile::thesis, Profile::paper}) {
-      c.name = fmt::format("{}/{}", name, profile == Profile::thesis ? "thesis" : "paper");
-      c.settings.profile = profile;
-      cases.push_back(c);
-    }
-  }
-  void add(const std::string& name, const std::function<void(Settings&)>& set) {
-    ConformanceCase c = basic();
-    set(c.settings);
-    add(name, c);
-  }
-
-  static constexpr int varying = 0;
-};
+}  // namespace
 
 std::string count_name(int samples) { return samples == CaseList::varying ? "varying" : fmt::format("{}spp", samples); }
+
+Change poison(const std::string& slot, float value, std::size_t step) {
+  return [=](SampleBuffer& samples) {
+    for (std::size_t i = step / 2; i < samples.sample_count(); i += step)
+      samples.record(i)[*samples.layout.find(slot)] = value;
+  };
+}
+
+std::vector<std::pair<std::string, Change>> extremes() {
+  return {{"nan-color", poison("G", nan, 7)},
+          {"nan-feature", poison("feature.N.X", nan, 3)},
+          {"missing-feature", poison("feature.N.X", nan, 1)},
+          {"infinite-feature", poison("feature.P.Y", infinity, 5)},
+          {"nan-random", poison("random.lens.U", nan, 4)},
+          {"firefly", poison("R", 1e9F, 1001)},
+          {"negative", poison("B", -3.0F, 11)},
+          {"largest", poison("R", std::numeric_limits<float>::max(), 13)},
+          {"black", poison("R", 0.0F, 1)},
+          {"subnormal", [](SampleBuffer& samples) {
+             for (std::size_t i = 0; i < samples.sample_count(); ++i)
+               for (const char* slot : {"R", "G", "B"}) samples.record(i)[*samples.layout.find(slot)] *= 1e-42F;
+           }}};
+}
+
+namespace {
 
 /// Every scene, with the passes of the profiles but for the largest box.
 void add_scenes(CaseList& list) {
@@ -195,118 +186,11 @@ void add_settings(CaseList& list) {
   });
 }
 
-/// Sets one channel of every `step`-th sample.
-std::function<void(SampleBuffer&)> poison(const std::string& slot, float value, std::size_t step) {
-  return [=](SampleBuffer& samples) {
-    for (std::size_t i = step / 2; i < samples.sample_count(); i += step)
-      samples.record(i)[*samples.layout.find(slot)] = value;
-  };
-}
-
-using Change = std::function<void(SampleBuffer&)>;
-
-/// What may stand in a sample, each with its name.
-std::vector<std::pair<std::string, Change>> extremes() {
-  return {{"nan-color", poison("G", nan, 7)},
-          {"nan-feature", poison("feature.N.X", nan, 3)},
-          {"missing-feature", poison("feature.N.X", nan, 1)},
-          {"infinite-feature", poison("feature.P.Y", infinity, 5)},
-          {"nan-random", poison("random.lens.U", nan, 4)},
-          {"firefly", poison("R", 1e9F, 1001)},
-          {"negative", poison("B", -3.0F, 11)},
-          {"largest", poison("R", std::numeric_limits<float>::max(), 13)},
-          {"black", poison("R", 0.0F, 1)},
-          {"subnormal", [](SampleBuffer& samples) {
-             for (std::size_t i = 0; i < samples.sample_count(); ++i)
-               for (const char* slot : {"R", "G", "B"}) samples.record(i)[*samples.layout.find(slot)] *= 1e-42F;
-           }}};
-}
-
 void add_extremes(CaseList& list) {
   for (const auto& [name, change] : extremes()) {
     ConformanceCase c = CaseList::basic();
     c.change = change;
     list.add("extreme/" + name, c);
-  }
-}
-
-/// The cases of one method with fixed weights: what its kernel can meet.
-class MethodCases {
- public:
-  MethodCases(CaseList& list, std::string method) : list_(list), method_(std::move(method)) {}
-
-  ConformanceCase basic(int samples = 4) const {
-    ConformanceCase c = CaseList::basic("dof", samples);
-    c.settings = method_settings(method_);
-    c.settings.box_widths = {9, 5};
-    return c;
-  }
-  void add(const std::string& what, ConformanceCase c) {
-    c.name = fmt::format("method/{}/{}", method_, what);
-    list_.cases.push_back(c);
-  }
-  void add(const std::string& what, const std::function<void(Settings&)>& set) {
-    ConformanceCase c = basic();
-    set(c.settings);
-    add(what, c);
-  }
-
- private:
-  CaseList& list_;
-  std::string method_;
-};
-
-void add_method_frames(MethodCases& list) {
-  for (const int samples : {1, 2, 3, 4, 16, CaseList::varying}) {
-    ConformanceCase c = list.basic(samples);
-    c.quick = samples == 4 || samples == CaseList::varying;
-    list.add(count_name(samples), c);
-    c.quick = false;
-    c.band_rows = 9;
-    list.add("band/" + count_name(samples), c);
-  }
-  constexpr int sizes[][2] = {{1, 1}, {1, 17}, {17, 1}, {17, 5}};
-  for (const auto& size : sizes) {
-    ConformanceCase c = list.basic(CaseList::varying);
-    c.options.width = size[0];
-    c.options.height = size[1];
-    list.add(fmt::format("size/{}x{}", size[0], size[1]), c);
-  }
-  for (const int width : {1, 3, 11, 21, 55})
-    list.add(fmt::format("box/{}", width), [&](Settings& s) { s.box_widths = {width}; });
-  for (const auto& [name, change] : extremes()) {
-    ConformanceCase c = list.basic();
-    c.change = change;
-    list.add("extreme/" + name, c);
-  }
-  ConformanceCase nowhere = list.basic();
-  nowhere.change = poison("film.X", nan, 3);
-  list.add("extreme/nan-film", nowhere);
-}
-
-void add_method_settings(MethodCases& list) {
-  for (const float sigma : {1e-30F, 1e-3F, 1e30F})
-    list.add(fmt::format("sigma-color/{:g}", sigma), [&](Settings& s) { s.sigma_color = sigma; });
-  for (const float sigma : {1e-6F, 1e6F})
-    list.add(fmt::format("sigma-feature/{:g}", sigma), [&](Settings& s) { s.sigma_feature = sigma; });
-  for (const char* group : {"N", "P2"})
-    list.add(fmt::format("features/{}", group), [&](Settings& s) { s.features = {group}; });
-  list.add("features/none", [](Settings& s) { s.features = std::vector<std::string>{}; });
-  list.add("features/all", [](Settings& s) { s.features.reset(); });
-  list.add("carried/features", [](Settings& s) { s.filter_features = true; });
-  list.add("crop", [](Settings& s) { s.crop = Window{3, 5, 11, 7}; });
-  list.add("spread-spikes,polish", [](Settings& s) {
-    s.spread_spikes = true;
-    s.polish = 0.15F;
-  });
-}
-
-void add_methods(CaseList& all) {
-  for (const std::string& method : method_names()) {
-    if (method_settings(method).method == Method::rpf) continue;
-    MethodCases list(all, method);
-    add_method_frames(list);
-    add_method_settings(list);
   }
 }
 

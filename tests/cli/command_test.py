@@ -97,6 +97,12 @@ class CommandTest(CommandCase):
         self.expect(run(EXAMPLE, "-o", self.output, "--aov", f"{folder}/", *QUICK), 0)
         self.assertEqual(sorted(p.name for p in folder.iterdir()), ["N.exr", "P.exr", "albedo.exr"])
 
+    def test_features_that_are_not_there_are_refused(self):
+        samples = self.folder / "few.exr"
+        slots = ("N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "albedo.R", "albedo.G", "albedo.B")
+        self.expect(run("convert", EXAMPLE, "-o", samples, *(f"--map=feature.{slot}=" for slot in slots)), 0)
+        self.expect(run(samples, "-o", self.output, "--aov", self.folder / "layers.exr", *QUICK), 2, "--aov", "no features")
+
     def test_options_beside_a_preset_win_wherever_they_stand(self):
         for arguments in (["--preset", "fast", "--noise", "0.5"], ["--noise", "0.5", "--preset=fast"]):
             self.expect(run(EXAMPLE, "-o", self.output, "-q", "--crop", "4x4+20+20", *arguments), 0)

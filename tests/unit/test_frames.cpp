@@ -117,4 +117,14 @@ void add_channel(SampleBuffer& samples, const std::string& slot, float value) {
   samples = wider;
 }
 
+std::vector<float> part_of(const Image& image, const Window& part) {
+  std::vector<float> pixels;
+  for (int y = 0; y < part.height; ++y) {
+    const int row = (part.y - image.data_window.y + y) * image.data_window.width;
+    const float* first = image.pixel(static_cast<std::size_t>(row + part.x - image.data_window.x));
+    pixels.insert(pixels.end(), first, first + static_cast<std::size_t>(part.width) * image.channel_count());
+  }
+  return pixels;
+}
+
 }  // namespace rpf::test

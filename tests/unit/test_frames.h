@@ -48,6 +48,9 @@ void scale_radiance(SampleBuffer& samples, float factor);
 /// Adds a channel behind the others, with one value for all samples.
 void add_channel(SampleBuffer& samples, const std::string& slot, float value);
 
+/// The pixels of a part of an image, in the coordinates of its data window.
+std::vector<float> part_of(const Image& image, const Window& part);
+
 /// The same samples with these slots only, in this order.
 SampleBuffer with_slots(const SampleBuffer& samples, const std::vector<std::string>& slots);
 

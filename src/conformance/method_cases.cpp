@@ -1,0 +1,100 @@
+#include <limits>
+
+#include "conformance/case_list.h"
+#include "rpf/methods.h"
+
+namespace rpf {
+namespace {
+
+/// The cases of one method with fixed weights: what its kernel can meet.
+class MethodCases {
+ public:
+  MethodCases(CaseList& list, std::string method) : list_(list), method_(std::move(method)) {}
+
+  ConformanceCase basic(int samples = 4) const {
+    ConformanceCase c = CaseList::basic("dof", samples);
+    c.settings = method_settings(method_);
+    c.settings.box_widths = {9, 5};
+    return c;
+  }
+  void add(const std::string& what, ConformanceCase c) {
+    c.name = fmt::format("method/{}/{}", method_, what);
+    list_.cases.push_back(c);
+  }
+  void add(const std::string& what, const std::function<void(Settings&)>& set) {
+    ConformanceCase c = basic();
+    set(c.settings);
+    add(what, c);
+  }
+
+ private:
+  CaseList& list_;
+  std::string method_;
+};
+
+void add_method_frames(MethodCases& list) {
+  for (const int samples : {1, 2, 3, 4, 16, CaseList::varying}) {
+    ConformanceCase c = list.basic(samples);
+    c.quick = samples == 4 || samples == CaseList::varying;
+    list.add(count_name(samples), c);
+    c.quick = false;
+    c.band_rows = 9;
+    list.add("band/" + count_name(samples), c);
+  }
+  constexpr int sizes[][2] = {{1, 1}, {1, 17}, {17, 1}, {17, 5}};
+  for (const auto& size : sizes) {
+    ConformanceCase c = list.basic(CaseList::varying);
+    c.options.width = size[0];
+    c.options.height = size[1];
+    list.add(fmt::format("size/{}x{}", size[0], size[1]), c);
+  }
+  for (const int width : {1, 3, 11, 21, 55})
+    list.add(fmt::format("box/{}", width), [&](Settings& s) { s.box_widths = {width}; });
+  for (const auto& [name, change] : extremes()) {
+    ConformanceCase c = list.basic();
+    c.change = change;
+    list.add("extreme/" + name, c);
+  }
+  ConformanceCase nowhere = list.basic();
+  nowhere.change = poison("film.X", std::numeric_limits<float>::quiet_NaN(), 3);
+  list.add("extreme/nan-film", nowhere);
+}
+
+void add_colors(MethodCases& list) {
+  for (const float sigma : {1e-30F, 1e-3F, 1e30F})
+    list.add(fmt::format("sigma-color/{:g}", sigma), [&](Settings& s) { s.sigma_color = sigma; });
+}
+
+void add_features(MethodCases& list) {
+  for (const float sigma : {1e-6F, 1e6F})
+    list.add(fmt::format("sigma-feature/{:g}", sigma), [&](Settings& s) { s.sigma_feature = sigma; });
+  for (const char* group : {"N", "P2"})
+    list.add(fmt::format("features/{}", group), [&](Settings& s) { s.features = {group}; });
+  list.add("features/none", [](Settings& s) { s.features = std::vector<std::string>{}; });
+  list.add("features/all", [](Settings& s) { s.features.reset(); });
+}
+
+void add_common_settings(MethodCases& list) {
+  list.add("carried/features", [](Settings& s) { s.filter_features = true; });
+  list.add("crop", [](Settings& s) { s.crop = Window{3, 5, 11, 7}; });
+  list.add("spread-spikes,polish", [](Settings& s) {
+    s.spread_spikes = true;
+    s.polish = 0.15F;
+  });
+}
+
+}  // namespace
+
+void add_methods(CaseList& all) {
+  for (const std::string& name : method_names()) {
+    const Method method = method_settings(name).method;
+    if (method == Method::rpf) continue;
+    MethodCases list(all, name);
+    add_method_frames(list);
+    add_common_settings(list);
+    if (method != Method::gaussian) add_colors(list);
+    if (method == Method::cross_bilateral) add_features(list);
+  }
+}
+
+}  // namespace rpf
