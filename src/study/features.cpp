@@ -1,33 +1,20 @@
 // What normals and positions keep: the thesis's column and Menger sponge.
 #include <fmt/format.h>
 
-#include "study/story.h"
+#include "study/comparisons.h"
+#include "study/places.h"
 
 namespace rpf::study {
 namespace {
 
-constexpr const char* boxes = "--profile thesis --boxes 35,17,7";
-
-// The column's front edge is in the middle of the picture, a brick wall to each side.
-constexpr Region corner = {"corner", -0.031, -0.156, 0.062, 0.25};
-constexpr Region bricks = {"bricks", 0.031, -0.156, 0.144, 0.25};
-// The sponge's front edge, its right side with holes, the lamp at the ceiling.
-constexpr Region edge = {"edge", -0.068, 0.015, 0.05, 0.18};
-constexpr Region holes = {"holes", -0.03, -0.016, 0.18, 0.19};
-constexpr Region lamp = {"lamp", -0.125, -0.281, 0.25, 0.078};
-constexpr Region sponge = {"sponge", -0.19, -0.06, 0.4, 0.3};
-
-struct Choice {
-  const char* label;
-  const char* options;
-};
-
-constexpr Choice choices[] = {{"normals and positions", " --features N,P"},
-                              {"normals", " --features N"},
-                              {"positions", " --features P"},
-                              {"positions, narrow", " --features P --position-scale 100"},
-                              {"no features", " --features none"},
-                              {"all of the file", ""}};
+const std::vector<Setting> settings = {
+    {"plain mean", plain_mean},
+    {"normals and positions", "--profile thesis --boxes 35,17,7 --features N,P"},
+    {"normals", "--profile thesis --boxes 35,17,7 --features N"},
+    {"positions", "--profile thesis --boxes 35,17,7 --features P"},
+    {"positions, narrow", "--profile thesis --boxes 35,17,7 --features P --position-scale 100"},
+    {"no features", "--profile thesis --boxes 35,17,7 --features none"},
+    {"all of the file", "--profile thesis --boxes 35,17,7"}};
 
 /// Numbers of one measure for the verdicts.
 class Measure {
@@ -94,15 +81,7 @@ Verdict together(const Findings& findings) {
 
 }  // namespace
 
-std::vector<Run> plan_features(const Extent& extent) {
-  std::vector<Run> runs;
-  for (const char* scene : {"column", "menger"}) {
-    const bench::SweepFrame frame = frame_of(scene, extent);
-    runs.push_back({"plain mean", frame, plain_mean});
-    for (const Choice& choice : choices) runs.push_back({choice.label, frame, std::string(boxes) + choice.options});
-  }
-  return runs;
-}
+std::vector<Run> plan_features(const Extent& extent) { return runs_of({"column", "menger"}, settings, extent); }
 
 void tell_features(const Findings& findings, Story& story) {
   story.verdicts(
@@ -115,11 +94,11 @@ void tell_features(const Findings& findings, Story& story) {
       "pixel; 1 is all of it, 0 none. Step kept: the slope of the means of the region's columns, so that only what is "
       "upright counts.");
   story.heading("A column with a corner");
-  story.pictures(findings.on("column"), Region{"", -0.125, -0.156, 0.3125, 0.25});
+  story.pictures(findings.on("column"), column_front);
   story.runs(findings.on("column"),
              {story.step_in(corner), story.error_in(corner), story.detail_in(bricks), story.error_in(bricks)});
   story.heading("A Menger sponge in a Cornell box");
-  story.pictures(findings.on("menger"), Region{"", -0.19, -0.06, 0.4, 0.3});
+  story.pictures(findings.on("menger"), sponge);
   story.runs(findings.on("menger"), {story.step_in(edge), story.error_in(edge), story.detail_in(holes),
                                      story.error_in(holes), story.error_in(sponge), story.error_in(lamp)});
 }

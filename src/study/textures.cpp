@@ -1,26 +1,18 @@
 // Textures that look like noise.
 #include <fmt/format.h>
 
-#include "study/story.h"
+#include "study/comparisons.h"
+#include "study/places.h"
 
 namespace rpf::study {
 namespace {
 
-// A grainy floor in front, a grainy ball; the column's bricks for comparison.
-constexpr Region floor_grain = {"floor", -0.4, 0.17, 0.8, 0.11};
-constexpr Region ball_grain = {"ball", -0.281, -0.094, 0.1625, 0.156};
-constexpr Region bricks = {"bricks", 0.031, -0.156, 0.144, 0.25};
-
 constexpr const char* grain = "random-texture";
 
-struct Choice {
-  const char* label;
-  const char* options;
-};
-
-constexpr Choice choices[] = {{"plain mean", plain_mean},        {"thesis, N and P", "--profile thesis --features N,P"},
-                              {"thesis", "--profile thesis"},    {"paper", "--profile paper"},
-                              {"balanced", "--preset balanced"}, {"high", "--preset high"}};
+const std::vector<Setting> settings = {
+    {"plain mean", plain_mean},        {"thesis, N and P", "--profile thesis --features N,P"},
+    {"thesis", "--profile thesis"},    {"paper", "--profile paper"},
+    {"balanced", "--preset balanced"}, {"high", "--preset high"}};
 
 Verdict taken_for_noise(Story& story, const Findings& findings) {
   const Outcome& filtered = findings.at(grain, "thesis, N and P");
@@ -54,12 +46,7 @@ Verdict albedo_helps(Story& story, const Findings& findings) {
 
 }  // namespace
 
-std::vector<Run> plan_textures(const Extent& extent) {
-  std::vector<Run> runs;
-  for (const char* scene : {grain, "column"})
-    for (const Choice& choice : choices) runs.push_back({choice.label, frame_of(scene, extent), choice.options});
-  return runs;
-}
+std::vector<Run> plan_textures(const Extent& extent) { return runs_of({grain, "column"}, settings, extent); }
 
 void tell_textures(const Findings& findings, Story& story) {
   story.verdicts(
@@ -68,11 +55,11 @@ void tell_textures(const Findings& findings, Story& story) {
       "Detail kept: the slope of the image's luminance over the reference's in a region, each less its mean around the "
       "pixel; 1 is all of it, 0 none.");
   story.heading("Grain");
-  story.pictures(findings.on(grain), Region{"", -0.281, -0.094, 0.25, 0.25});
+  story.pictures(findings.on(grain), ball_and_floor);
   story.runs(findings.on(grain), {story.detail_in(floor_grain), story.detail_in(ball_grain),
                                   story.error_in(floor_grain), story.error_in(ball_grain)});
   story.heading("Bricks");
-  story.pictures(findings.on("column"), Region{"", -0.125, -0.156, 0.3125, 0.25});
+  story.pictures(findings.on("column"), column_front);
   story.runs(findings.on("column"), {story.detail_in(bricks), story.error_in(bricks)});
 }
 
