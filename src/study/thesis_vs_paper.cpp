@@ -1,6 +1,4 @@
 // The thesis's profile against the paper's.
-#include <fmt/format.h>
-
 #include "study/comparisons.h"
 #include "study/places.h"
 
@@ -20,26 +18,12 @@ std::vector<const char*> scenes(bool quick) {
                : std::vector<const char*>{"dof", "motion", "soft-shadow", "glossy", "menger", "dof-hdr"};
 }
 
-report::Plot error_plot(const Findings& findings) {
-  report::Plot plot{"CPU seconds", "relMSE, part of the plain mean's", {}, true, true, false, {}};
-  for (const Setting& setting : settings) {
-    if (setting.options == plain_mean) continue;
-    report::Curve curve{setting.label, {}};
-    for (const std::string& scene : findings.scenes()) {
-      const Outcome& o = findings.at(scene, setting.label);
-      curve.points.push_back({o.cpu(), part_of_mean(findings, o)});
-    }
-    plot.curves.push_back(curve);
-  }
-  return plot;
-}
-
 }  // namespace
 
 std::vector<Run> plan_thesis_vs_paper(const Extent& extent) { return runs_of(scenes(extent.quick), settings, extent); }
 
 void tell_thesis_vs_paper(const Findings& findings, Story& story) {
-  const Quantity relmse = error_named("relMSE"), seconds = {"CPU seconds", [](const Outcome&o) { return o.cpu(); }};
+  const Quantity relmse = error_named("relMSE"), seconds = {"CPU seconds", &Outcome::cpu};
   story.verdicts(
       {less(findings, "The thesis's profile is faster", "thesis", "paper", seconds),
        less(findings, "It has the smaller error", "thesis", "paper", relmse),
@@ -47,7 +31,10 @@ void tell_thesis_vs_paper(const Findings& findings, Story& story) {
        less(findings, "More samples (M of the paper) lower the thesis's error", "thesis, M of the paper", "thesis",
             relmse),
        less(findings, "The outlier step lowers the error", "paper, with pixel", "thesis, M of the paper", relmse)});
-  story.plot("error-and-time", error_plot(findings), "A point a scene");
+  story.plot("errors",
+             plot_by_scene(findings, {"thesis", "paper", "thesis, M of the paper", "paper, M of the thesis",
+                                      "paper, with pixel"}),
+             "Error as part of the plain mean's, scene by scene");
   const Column hdr{"HDR FLIP", [](const Outcome& o) { return number(o.error("HDR_FLIP")); }};
   for (const std::string& scene : findings.scenes()) {
     story.heading(scene);
