@@ -26,7 +26,7 @@ struct Options {
 
 study::Extent extent_of(const Options& o) {
   study::Extent extent;
-  if (o.quick) extent = {240, 135, 256, true};
+  if (o.quick) extent = {192, 108, 256, true};
   if (!o.size.empty()) std::tie(extent.width, extent.height) = size_of(o.size);
   return extent;
 }
@@ -108,7 +108,7 @@ Command add_study_command(CLI::App& app) {
   command->add_option("NAME", options->name, "Which experiment; without it they are listed");
   command->add_option("-o,--output", options->folder, "Folder for pages, results and pictures")->type_name("DIR");
   command->add_flag("--quick", options->quick, "Smaller pictures and fewer points: under two minutes each");
-  command->add_option("--size", options->size, "Pixels of the scenes; 320x180, quick 240x135 if not given")
+  command->add_option("--size", options->size, "Pixels of the scenes; 320x180, quick 192x108 if not given")
       ->type_name("WxH");
   command->add_option("--backend", options->backend, "As for filtering; changes the time, never a bit")
       ->check(CLI::IsMember(backend_names()))
