@@ -29,7 +29,7 @@ th { vertical-align: bottom; white-space: normal }
   grid-template-columns: repeat(auto-fill, minmax(min(100%, var(--least)), 1fr)) }
 .grid img { display: block; max-width: 100%; height: auto }
 .plot { max-width: 46rem; margin: 1rem 0 }
-.plot svg { display: block; width: 100%; min-width: 26rem; height: auto; background: #ffffff }
+.plot svg { display: block; width: 100%; min-width: 22rem; height: auto; background: #ffffff }
 )";
 
 }  // namespace rpf::report
