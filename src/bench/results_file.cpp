@@ -24,8 +24,9 @@ std::string whole_lines(const std::string& path) {
 Json parse(const std::string& path, const std::string& line, std::size_t number) {
   Json json = Json::parse(line, nullptr, false);
   if (!json.is_object() || !json.contains("key") || !json["key"].is_string())
-    throw Error(ErrorKind::input,
-                fmt::format("\"{}\", line {}: no result of rpf bench sweep; name another file", path, number));
+    throw Error(
+        ErrorKind::input,
+        fmt::format("\"{}\", line {}: no result of rpf bench sweep or rpf study; name another file", path, number));
   return json;
 }
 

@@ -10,7 +10,6 @@
 
 #include "rpf/error.h"
 #include "rpf/io.h"
-#include "rpf/scene.h"
 
 namespace rpf::bench {
 namespace {
@@ -56,15 +55,6 @@ SweepPlan parse(const std::string& path, const Json& json, const std::string& sc
   return plan;
 }
 
-SceneOptions scene_options(const SweepFrame& frame, int samples, SceneSampler sampler) {
-  SceneOptions options;
-  options.width = frame.width;
-  options.height = frame.height;
-  options.samples = samples;
-  options.sampler = sampler;
-  return options;
-}
-
 }  // namespace
 
 SweepPlan read_sweep_plan(const std::string& path, const std::string& scene_folder) {
@@ -86,6 +76,22 @@ void name_scene_files(SweepFrame& frame, const std::string& folder) {
   if (frame.reference_samples > 0) frame.reference = file(frame.reference_samples, "reference");
 }
 
+SceneOptions scene_options(const SweepFrame& frame, int samples, SceneSampler sampler) {
+  SceneOptions options;
+  options.width = frame.width;
+  options.height = frame.height;
+  options.samples = samples;
+  options.sampler = sampler;
+  return options;
+}
+
+void make_reference(const SweepFrame& frame, const Control& control) {
+  if (frame.reference.empty() || fs::exists(frame.reference)) return;
+  fs::create_directories(fs::path(frame.reference).parent_path());
+  const SceneOptions options = scene_options(frame, frame.reference_samples, SceneSampler::sobol);
+  write_image(frame.reference, render_reference(frame.scene, options, control));
+}
+
 void make_scene_files(const SweepFrame& frame, const Control& control) {
   if (frame.scene.empty()) return;
   fs::create_directories(fs::path(frame.samples).parent_path());
@@ -93,9 +99,7 @@ void make_scene_files(const SweepFrame& frame, const Control& control) {
     const SceneOptions options = scene_options(frame, frame.samples_per_pixel, SceneSampler::random);
     write_samples(frame.samples, render_scene(frame.scene, options, control));
   }
-  if (frame.reference.empty() || fs::exists(frame.reference)) return;
-  const SceneOptions options = scene_options(frame, frame.reference_samples, SceneSampler::sobol);
-  write_image(frame.reference, render_reference(frame.scene, options, control));
+  make_reference(frame, control);
 }
 
 bool applies(const SweepSetting& setting, const SweepFrame& frame) {

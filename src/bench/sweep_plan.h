@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rpf/filter.h"
+#include "rpf/scene.h"
 
 namespace rpf::bench {
 
@@ -36,6 +37,12 @@ SweepPlan read_sweep_plan(const std::string& path, const std::string& scene_fold
 
 /// Names the files of a frame that is a scene: they say how they were made.
 void name_scene_files(SweepFrame& frame, const std::string& folder);
+
+/// How a scene is rendered: its samples by SceneSampler::random, its reference by SceneSampler::sobol.
+SceneOptions scene_options(const SweepFrame& frame, int samples, SceneSampler sampler);
+
+/// Renders the reference of a scene where its file is not there. Throws as render_reference() and write_image() do.
+void make_reference(const SweepFrame& frame, const Control& control);
 
 /// Renders the files of a scene that are not there. Throws as render_scene() and the writers do.
 void make_scene_files(const SweepFrame& frame, const Control& control);

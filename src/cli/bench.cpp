@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
+#include <tuple>
 
 #include "cli/filter_options.h"
 #include "cli/signals.h"
-#include "report/error_json.h"
 #include "rpf/error.h"
 
 namespace rpf::cli {
@@ -47,8 +47,7 @@ std::vector<bench::SweepFrame> frames_of(const BenchFrames& options, const std::
   bench::SweepFrame frame;
   frame.scene = options.scene;
   frame.name = options.scene + " " + options.size;
-  if (std::sscanf(options.size.c_str(), "%dx%d", &frame.width, &frame.height) != 2)
-    throw Error(ErrorKind::usage, fmt::format("--size {}: WIDTHxHEIGHT is expected, such as 240x135", options.size));
+  std::tie(frame.width, frame.height) = size_of(options.size);
   bench::name_scene_files(frame, folder);
   bench::make_scene_files(frame, stoppable());
   return {frame};
@@ -84,20 +83,6 @@ void show_status(const std::string& text) {
   if (isatty(STDERR_FILENO) != 1) return;
   fmt::print(stderr, "\r\033[K{}", text);
   std::fflush(stderr);
-}
-
-double kept_energy(const Report& report) { return report.passes.empty() ? 1 : report.passes.back().energy; }
-
-Json json_of(const bench::FrameRun& run) {
-  Json json{{"cpu", run.cost.cpu},           {"wall", run.cost.wall},       {"energy", kept_energy(run.report)},
-            {"backend", run.report.backend}, {"random", run.report.random}, {"features", run.report.features}};
-  for (const PassReport& pass : run.report.passes)
-    json["passes"].push_back({{"box", pass.box_width},
-                              {"neighbors", pass.neighbors},
-                              {"acceptance", pass.acceptance},
-                              {"wall", pass.seconds}});
-  if (run.error) json["error"] = report::json_of(*run.error);
-  return json;
 }
 
 Json json_of(const bench::Summary& summary, const std::vector<double>& rounds) {

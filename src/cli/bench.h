@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/frame_run.h"
+#include "bench/run_json.h"
 #include "bench/statistics.h"
 #include "bench/sweep_plan.h"
 
@@ -70,11 +71,6 @@ Control stoppable();
 /// One line on a terminal's stderr that is overwritten by the next; an empty text clears it.
 void show_status(const std::string& text);
 
-/// Energy after the last pass against the plain mean's.
-double kept_energy(const Report& report);
-
-/// A run as JSON: cpu, wall, energy, backend, modeled channels, passes and, where measured, error.
-nlohmann::ordered_json json_of(const bench::FrameRun& run);
 nlohmann::ordered_json json_of(const bench::Summary& summary, const std::vector<double>& rounds);
 
 }  // namespace rpf::cli

@@ -65,7 +65,7 @@ void print_table(const std::vector<Series>& all, int rounds) {
     };
     fmt::print("{:<28} {:<28} {:>6.3f} {:>8} {:>8} {:>7.4f}  {:<28} {}\n", cost_text(s.cpu), cost_text(s.wall),
                acceptance(s.first.report), error(&ImageError::relmse), error(&ImageError::flip),
-               kept_energy(s.first.report), s.frame.name, s.setting.name);
+               bench::kept_energy(s.first.report), s.frame.name, s.setting.name);
   }
   fmt::print(
       "reading and filtering, kernels loaded; median (lowest .. highest) of {} interleaved rounds; energy against the "
@@ -77,7 +77,7 @@ void print_json(const std::vector<Series>& all) {
   Json json;
   for (const Series& s : all) {
     Json entry{{"frame", s.frame.name}, {"setting", s.setting.name}, {"options", s.setting.options}};
-    entry.update(json_of(s.first));
+    entry.update(bench::json_of(s.first));
     entry["cpu"] = json_of(bench::summarize(s.cpu), s.cpu);
     entry["wall"] = json_of(bench::summarize(s.wall), s.wall);
     entry["acceptance"] = acceptance(s.first.report);

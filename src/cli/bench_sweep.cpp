@@ -44,7 +44,7 @@ class Sweep {
     if (round > 0) job.reference.clear();  // the image is the same in every round
     if (warm_.insert(frame.samples + setting.options).second) bench::warm_up(job, stoppable());
     Json line{{"frame", frame.name}, {"setting", setting.name}, {"options", setting.options}, {"round", round}};
-    line.update(json_of(bench::run_frame(job, stoppable())));
+    line.update(bench::json_of(bench::run_frame(job, stoppable())));
     return line;
   }
 

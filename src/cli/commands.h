@@ -22,5 +22,6 @@ Command add_scene_command(CLI::App& app);     ///< rpf scene NAME -o FILE
 Command add_devices_command(CLI::App& app);   ///< rpf devices
 Command add_selftest_command(CLI::App& app);  ///< rpf selftest
 Command add_bench_command(CLI::App& app);     ///< rpf bench frames | ab | sweep
+Command add_study_command(CLI::App& app);     ///< rpf study NAME -o DIR
 
 }  // namespace rpf::cli

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "report/error_json.h"
+#include "bench/run_json.h"
 #include "report/heat_map.h"
 
 namespace rpf::cli {
@@ -26,7 +26,7 @@ std::string difference_row(const ComparedImage& image) {
 
 Json json_of_image(const ComparedImage& image) {
   Json json{{"image", image.file}};
-  json.update(report::json_of(image.error));
+  json.update(bench::json_of(image.error));
   return json;
 }
 

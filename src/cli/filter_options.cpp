@@ -245,6 +245,14 @@ Window window_of(const std::string& option, const std::string& text) {
   return w;
 }
 
+std::pair<int, int> size_of(const std::string& text) {
+  int width = 0, height = 0, used = 0;
+  const bool parsed = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) == 2;
+  if (!parsed || used != static_cast<int>(text.size()))
+    refuse("--size", text, "WIDTHxHEIGHT is expected, such as 480x270");
+  return {width, height};
+}
+
 Settings settings_of(const FilterOptions& o) {
   Settings s = o.settings;
   s.profile = o.profile == "paper" ? Profile::paper : Profile::thesis;

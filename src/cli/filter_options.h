@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rpf/io.h"
@@ -49,6 +50,9 @@ SampleReadOptions read_options_of(const std::vector<std::string>& map, std::uint
 
 /// WxH+X+Y as oiiotool writes it; X and Y may be negative (100x50-7+3).
 Window window_of(const std::string& option, const std::string& text);
+
+/// Width and height of "--size WxH".
+std::pair<int, int> size_of(const std::string& text);
 
 /// "--map SLOT=CHANNEL", shared by the commands that read sample files.
 void add_map_option(CLI::App& app, std::vector<std::string>& map);

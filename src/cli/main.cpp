@@ -24,6 +24,7 @@ constexpr const char* footer = R"(Examples:
   rpf convert theirs.exr -o ours.samples.exr
   rpf scene dof -o dof.samples.exr
   rpf bench frames render.samples.exr --set all='--backend opencl' --set small='--backend opencl --boxes 21,11,5'
+  rpf study features -o study --quick
 
 Exit codes: 0 ok, 1 internal, 2 usage, 3 input, 4 output, 5 device, 6 memory, 128 + signal when stopped;
 rpf compare --max-error: 1 when an image is above it.)";
@@ -41,7 +42,7 @@ int run(int argc, char** argv) {
       {"merge", add_merge_command(app)},     {"convert", add_convert_command(app)},
       {"scene", add_scene_command(app)},     {"devices", add_devices_command(app)},
       {"explain", add_explain_command(app)}, {"selftest", add_selftest_command(app)},
-      {"bench", add_bench_command(app)},
+      {"bench", add_bench_command(app)},     {"study", add_study_command(app)},
   };
   try {
     app.parse(argc, argv);

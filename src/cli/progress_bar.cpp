@@ -13,14 +13,14 @@ namespace {
 
 constexpr int bar_width = 30;
 
+}  // namespace
+
 std::string clock_time(double seconds) {
   if (seconds < 0) return "--:--";
   const auto s = std::lround(seconds);
   return s < 3600 ? fmt::format("{}:{:02}", s / 60, s % 60)
                   : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
-
-}  // namespace
 
 ProgressBar::ProgressBar(const std::string& mode)
     : visible_(mode == "always" || (mode == "auto" && isatty(STDERR_FILENO) == 1)) {}

@@ -8,6 +8,9 @@
 
 namespace rpf::cli {
 
+/// Seconds as people write them, 1:05; unknown where they are negative.
+std::string clock_time(double seconds);
+
 /// One line on stderr that says how far the run is and how long it will take.
 class ProgressBar {
  public:

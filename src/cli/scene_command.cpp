@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <tuple>
 
 #include "cli/commands.h"
 #include "cli/environment.h"
+#include "cli/filter_options.h"
 #include "cli/print.h"
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
@@ -23,13 +24,6 @@ struct Options {
   SceneOptions scene;  ///< the options that need no translation
 };
 
-void parse_size(const std::string& text, SceneOptions& scene) {
-  int used = 0;
-  const bool parsed = std::sscanf(text.c_str(), "%dx%d%n", &scene.width, &scene.height, &used) == 2;
-  if (!parsed || used != static_cast<int>(text.size()))
-    throw Error(ErrorKind::usage, fmt::format("--size {}: WIDTHxHEIGHT is expected, such as 480x270", text));
-}
-
 SceneSampler sampler_of(const std::string& name) {
   if (name == "stratified") return SceneSampler::stratified;
   return name == "sobol" ? SceneSampler::sobol : SceneSampler::random;
@@ -37,7 +31,7 @@ SceneSampler sampler_of(const std::string& name) {
 
 SceneOptions scene_options(const Options& o) {
   SceneOptions scene = o.scene;
-  parse_size(o.size, scene);
+  std::tie(scene.width, scene.height) = size_of(o.size);
   scene.sampler = sampler_of(o.sampler);
   for (std::size_t axis = 0; axis < 3; ++axis) scene.world_offset[axis] = o.world_offset.at(axis);
   if (!o.density.empty()) scene.density = read_image(o.density);

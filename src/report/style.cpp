@@ -23,7 +23,7 @@ pre { padding: .7rem; background: var(--box); font-size: .8125rem; overflow-wrap
 table { border-collapse: collapse; font-size: .875rem; font-variant-numeric: tabular-nums; overflow-wrap: normal }
 th, td { padding: .3rem .7rem .3rem 0; border-bottom: 1px solid var(--line); text-align: right; vertical-align: top;
   white-space: nowrap }
-th { vertical-align: bottom }
+th { vertical-align: bottom; white-space: normal }
 .text { text-align: left; white-space: normal; min-width: 8rem; max-width: 32rem }
 .grid { display: grid; gap: 1rem; margin: 1rem 0;
   grid-template-columns: repeat(auto-fill, minmax(min(100%, var(--least)), 1fr)) }
@@ -32,7 +32,7 @@ th { vertical-align: bottom }
 .legend i { display: inline-block; width: .8rem; height: .8rem; margin-right: .35rem; vertical-align: -.1rem }
 .legend .bar { flex: 1 1 4rem; margin: 0 }
 .plot { max-width: 46rem; margin: 1rem 0 }
-.plot svg { display: block; width: 100%; min-width: 26rem; height: auto; background: #ffffff }
+.plot svg { display: block; width: 100%; min-width: 22rem; height: auto; background: #ffffff }
 )";
 
 }  // namespace rpf::report

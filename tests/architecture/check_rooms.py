@@ -21,17 +21,18 @@ ROOMS = {
     "src/scene": API,
     "src/bench": API,
     "src/report": API | {"src/io", "src/bench"},  # files that are whole or untouched; gnuplot as a program
-    "src/cli": API | {"src/bench", "src/report"},
+    "src/study": API | {"src/bench", "src/report"},
+    "src/cli": API | {"src/bench", "src/report", "src/study"},
     "examples": API,
     "bench": API | {"src", "src/cpu", "src/opencl", "src/bench", "kernels"},
-    "tests": API | {"src", "src/cpu", "src/opencl", "src/conformance", "src/explain", "src/io", "src/metrics", "src/scene", "src/bench", "src/report", "kernels"},
+    "tests": API | {"src", "src/cpu", "src/opencl", "src/conformance", "src/explain", "src/io", "src/metrics", "src/scene", "src/bench", "src/report", "src/study", "kernels"},
 }
 # Third-party headers, each in one room only (beside the tests).
 LIBRARIES = {
     "OpenEXR/": {"src/io"}, "Imf": {"src/io"}, "libdeflate": {"src/io"}, "OpenImageIO/": {"src/images"}, "CL/": {"src/opencl"}, "CLI/": {"src/cli"},
     "embree3/": {"src/scene"}, "tbb/": {"src", "src/cpu", "src/explain", "src/scene"}, "benchmark/": {"bench"},
-    "fmt/": {"src", "src/opencl", "src/conformance", "src/explain", "src/io", "src/images", "src/metrics", "src/scene", "src/cli", "src/bench", "src/report"},
-    "nlohmann/": {"src/cli", "src/io", "src/conformance", "src/bench", "src/report"},  # what is printed as JSON; the header of raw sample files
+    "fmt/": {"src", "src/opencl", "src/conformance", "src/explain", "src/io", "src/images", "src/metrics", "src/scene", "src/cli", "src/bench", "src/report", "src/study"},
+    "nlohmann/": {"src/cli", "src/io", "src/conformance", "src/bench", "src/study"},  # what is printed as JSON; the header of raw sample files
 }
 # The one place that knows all backends.
 EXCEPTIONS = {("src/backends.cpp", "src/cpu"), ("src/backends.cpp", "src/opencl")}

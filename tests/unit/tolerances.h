@@ -71,4 +71,8 @@ constexpr double estimated_noise = 0.02;
 /// Binomial probabilities through log-gamma, sums of at most ten of them, against their ten printed digits.
 constexpr double binomial = 1e-9;
 
+/// Slopes and means over a few hundred pixels of single precision between 0 and 40, in double; fractions of predicted
+/// work, added up.
+constexpr double study = 1e-5;
+
 }  // namespace rpf::test::tolerance

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <tuple>
+
+#include "cli/bench.h"
+#include "cli/commands.h"
+#include "cli/filter_options.h"
+#include "cli/print.h"
+#include "cli/progress_bar.h"
+#include "cli/signals.h"
+#include "report/html_page.h"
+#include "rpf/error.h"
+#include "study/harness.h"
+
+namespace rpf::cli {
+namespace {
+
+struct Options {
+  std::string name, folder, size;
+  bool quick = false;
+  std::string backend = "auto", device;
+  int threads = 0;  ///< 0: as filtering chooses
+};
+
+study::Extent extent_of(const Options& o) {
+  study::Extent extent;
+  if (o.quick) extent = {192, 108, 256, true};
+  if (!o.size.empty()) std::tie(extent.width, extent.height) = size_of(o.size);
+  return extent;
+}
+
+Settings run_settings(const Options& o, const std::string& options) {
+  try {
+    Settings settings = settings_of(parse_filter_options(CLI::detail::split_up(options)));
+    settings.backend = o.backend;
+    settings.device = o.device;
+    if (o.threads > 0) settings.threads = o.threads;
+    return settings;
+  } catch (const CLI::ParseError& e) {
+    throw Error(ErrorKind::internal, fmt::format("study: options \"{}\": {}; report this defect", options, e.what()));
+  }
+}
+
+bool show(const std::string& name, const study::StudyProgress& p) {
+  show_status(fmt::format("{}: run {} of {}, {:.0f} %, {} left: {}", name, p.run, p.runs, 100 * p.fraction,
+                          clock_time(p.seconds_left), p.what));
+  return received_signal() == 0;
+}
+
+void run_one(const Options& o, const study::Experiment& experiment) {
+  const study::StudyOptions options{o.folder, extent_of(o),
+                                    [&](const std::string& text) { return run_settings(o, text); }};
+  const study::StudyDone done = study::run_experiment(
+      experiment, options, [&](const study::StudyProgress& p) { return show(experiment.name, p); });
+  show_status("");
+  print("{}: {} runs measured, {} were there\n", done.page, done.measured, done.known);
+}
+
+void write_index(const Options& o) {
+  report::HtmlPage page("rpf study all");
+  for (const study::Experiment& experiment : study::experiments()) {
+    page.link(fmt::format("{}.html", experiment.name), experiment.name);
+    page.paragraph(experiment.question);
+  }
+  const std::string file = (std::filesystem::path(o.folder) / "index.html").string();
+  page.write(file);
+  print("{}\n", file);
+}
+
+void print_list() {
+  for (const study::Experiment& experiment : study::experiments())
+    print("{:<16} {}\n", experiment.name, experiment.question);
+  print("{:<16} {}\n", "all", "all of them, and a page that leads to theirs");
+}
+
+int run(const Options& o) {
+  if (o.name.empty()) {
+    print_list();
+    return 0;
+  }
+  if (o.name != "all") study::find_experiment(o.name);
+  if (o.folder.empty())
+    throw Error(ErrorKind::usage, "study: no output; name the folder to write to with -o, as in -o study");
+  const SignalGuard guard;
+  if (o.name != "all") {
+    run_one(o, study::find_experiment(o.name));
+    return 0;
+  }
+  for (const study::Experiment& experiment : study::experiments()) run_one(o, experiment);
+  write_index(o);
+  return 0;
+}
+
+std::string description() {
+  std::string text = "Run an experiment and write a page about it; goes on where it was stopped. Experiments:";
+  for (const study::Experiment& experiment : study::experiments())
+    text += fmt::format("\n  {:<16} {}", experiment.name, experiment.question);
+  return text + fmt::format("\n  {:<16} {}", "all", "all of them, and a page that leads to theirs");
+}
+
+}  // namespace
+
+Command add_study_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("study", description());
+  command->add_option("NAME", options->name, "Which experiment; without it they are listed");
+  command->add_option("-o,--output", options->folder, "Folder for pages, results and pictures")->type_name("DIR");
+  command->add_flag("--quick", options->quick, "Smaller pictures and fewer points: under two minutes each");
+  command->add_option("--size", options->size, "Pixels of the scenes; 320x180, quick 192x108 if not given")
+      ->type_name("WxH");
+  command->add_option("--backend", options->backend, "As for filtering; changes the time, never a bit")
+      ->check(CLI::IsMember(backend_names()))
+      ->envname("RPF_BACKEND")
+      ->capture_default_str();
+  command->add_option("-d,--device", options->device, "OpenCL device: index of `rpf devices` or a part of its name")
+      ->envname("RPF_DEVICE");
+  command->add_option("-t,--threads", options->threads, "Threads; all cores if not given")
+      ->check(CLI::PositiveNumber)
+      ->envname("RPF_NUM_THREADS");
+  return [options] { return run(*options); };
+}
+
+}  // namespace rpf::cli
