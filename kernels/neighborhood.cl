@@ -140,9 +140,9 @@ static uint draw_candidates(const Frame* frame, const rpf_pass* pass, uint pixel
   return count;
 }
 
+#ifdef RPF_AVX512  // Oclgrind does not know prefetches
 // Asks for the records of the candidates: they lie all over the box, and all of them are needed soon.
 static void fetch_candidates(const Frame* frame, const rpf_pass* pass, uint candidates, const Slot* slot) {
-#ifdef RPF_AVX512
   __global const uint* sample = slot->candidates;
   const size_t stride = pass->samples;
   for (uint i = 0; i < candidates; ++i) {
@@ -150,8 +150,8 @@ static void fetch_candidates(const Frame* frame, const rpf_pass* pass, uint cand
 #pragma unroll
     for (int c = 0; c < RPF_CHUNKS; ++c) __builtin_prefetch((const void*)(size_t)(record + c * stride));
   }
-#endif
 }
+#endif
 
 // Copies the records of neighbors begin .. end - 1, so that they lie side by side.
 static void copy_records(const Frame* frame, const rpf_pass* pass, uint begin, uint end, const Slot* slot) {
@@ -199,7 +199,9 @@ static uint gather(const Frame* frame, const rpf_pass* pass, uint pixel, uint fi
   *drawn = 0;
   for (uint begin = 0; begin < draws && count < pass->enough; begin += RPF_DRAWN_AT_ONCE) {
     const uint candidates = draw_candidates(frame, pass, pixel, begin, min(begin + RPF_DRAWN_AT_ONCE, draws), slot);
+#ifdef RPF_AVX512
     fetch_candidates(frame, pass, candidates, slot);
+#endif
     if (RPF_PHASES > 1) count = append_accepted(frame, pass, moments, candidates, slot, count);
     *drawn += candidates;
   }

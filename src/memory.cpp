@@ -30,7 +30,8 @@ std::uint64_t pixel_bytes(std::uint64_t carried) { return 2 * word + sizeof(Pixe
 
 FrameFacts facts_of(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {
   FrameFacts facts;
-  facts.width = facts.height = std::numeric_limits<int>::max();  // what the box is, the frame has room for
+  facts.width = size.width;
+  facts.height = std::numeric_limits<int>::max();  // what the box is, the frame has room for
   facts.max_samples_per_pixel = size.max_samples_per_pixel;
   const Selection selection = select_channels(layout, settings);
   facts.variables.random_names = selection.random;
@@ -64,7 +65,8 @@ std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, 
 
 void check_memory(const SampleBuffer& samples, const Settings& settings, std::uint64_t more) {
   if (settings.max_memory == 0) return;
-  const FrameSize size{samples.data_window.pixel_count(), samples.sample_count(), most_samples(samples.first_sample)};
+  const FrameSize size{samples.data_window.pixel_count(), samples.sample_count(), most_samples(samples.first_sample),
+                       samples.data_window.width};
   const std::uint64_t room = samples.values.capacity() / std::max<std::uint64_t>(size.samples, 1);
   const std::uint64_t need = memory_need(size, samples.layout, room, settings) + more;
   constexpr double megabyte = 1 << 20;

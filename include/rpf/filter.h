@@ -78,6 +78,7 @@ struct FrameSize {
   std::uint64_t pixels = 0;
   std::uint64_t samples = 0;
   std::uint32_t max_samples_per_pixel = 0;
+  int width = 0;  ///< pixels of a row
 };
 
 /// Peak bytes of reading the slots of `layout` and filtering such a frame, none of its channels being constant. Throws

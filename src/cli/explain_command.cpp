@@ -45,7 +45,7 @@ Settings settings_of(const Options& o) {
 /// Needs more than the limit: refused before anything is read.
 void check_budget(const SampleFileInfo& info, const Settings& settings) {
   constexpr double megabyte = 1 << 20;
-  const FrameSize size{info.data_window.pixel_count(), info.sample_count, info.max_samples};
+  const FrameSize size{info.data_window.pixel_count(), info.sample_count, info.max_samples, info.data_window.width};
   const auto need = predict_explain_memory(size, needed_layout(info, settings), settings);
   if (need > settings.max_memory)
     throw Error(

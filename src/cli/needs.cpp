@@ -12,7 +12,7 @@ SampleLayout needed_layout(const SampleFileInfo& info, const Settings& settings)
 }
 
 std::uint64_t predicted_memory(const SampleFileInfo& info, const Settings& settings) {
-  const FrameSize size{info.data_window.pixel_count(), info.sample_count, info.max_samples};
+  const FrameSize size{info.data_window.pixel_count(), info.sample_count, info.max_samples, info.data_window.width};
   return predict_memory(size, needed_layout(info, settings), settings);
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 constexpr float unlimited = std::numeric_limits<float>::infinity();
 
-/// Keeps what is laid out for a band small beside the frame. It costs little: bands overlap by a box width.
+/// Keeps what is laid out for a band small beside the frame, where the rows that a tile reads are not more. It costs
+/// little: bands overlap by a box width.
 constexpr std::uint64_t most_band_bytes = 256U << 20U;
 
 /// Work-items for each compute unit of a device that hides latency by switching between them.
@@ -124,12 +125,16 @@ const OpenClBackend::PassTables& OpenClBackend::tables(int pass) {
   return tables_[static_cast<std::size_t>(pass)];
 }
 
-BandLimit OpenClBackend::band_limit() const {
+BandLimit OpenClBackend::device_limit() const {
   const std::uint64_t memory = session_.device().getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
   const std::uint64_t scratch = items_ * scratch_->sizes.bytes();
   const std::uint64_t left = memory > scratch ? memory - scratch : 0;
-  return {band_bytes_ > 0 ? band_bytes_ : std::min(left, most_band_bytes),
-          session_.device().getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>()};
+  return {band_bytes_ > 0 ? band_bytes_ : left, session_.device().getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>()};
+}
+
+BandLimit OpenClBackend::band_limit() const {
+  const BandLimit limit = device_limit();
+  return {std::min(limit.total, most_band_bytes), limit.buffer};
 }
 
 const Band& OpenClBackend::band_for(int pass, const Rows& needed) {
@@ -232,7 +237,9 @@ void OpenClBackend::run(int pass, const Window& tile) {
 
 void OpenClBackend::run_part(int pass, const Window& tile) {
   const Rows needed = rows_read(*plan_, pass, tile);
-  if (!fits(*frame_, SampleFloats(*plan_), needed, band_limit())) {
+  // A row of pixels is filtered at once: it may need more than a band has elsewhere.
+  const BandLimit limit = tile.height > 1 ? band_limit() : device_limit();
+  if (!fits(*frame_, SampleFloats(*plan_), needed, limit)) {
     run_halves(pass, tile);
     return;
   }
@@ -276,8 +283,11 @@ void OpenClBackend::end_pass() {
 }
 
 std::uint64_t OpenClBackend::scratch_bytes(const Plan& plan, std::uint64_t samples) const {
-  const std::uint64_t laid_out = samples * SampleFloats(plan).chunks * sizeof(float);
-  return items_ * ScratchSizes(plan).bytes() + std::min(laid_out, most_band_bytes);
+  int rows = 0;  // that a row of pixels reads
+  for (const PassPlan& pass : plan.passes) rows = std::max(rows, pass.box_width);
+  const std::uint64_t sample_bytes = SampleFloats(plan).chunks * sizeof(float);
+  const std::uint64_t row_band = std::uint64_t(rows) * plan.width * plan.most_samples * sample_bytes;
+  return items_ * ScratchSizes(plan).bytes() + std::min(samples * sample_bytes, std::max(row_band, most_band_bytes));
 }
 
 PixelTrace OpenClBackend::trace(int pass, std::uint32_t pixel) {

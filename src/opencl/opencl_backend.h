@@ -45,7 +45,8 @@ class OpenClBackend : public Backend {
   };
 
   const PassTables& tables(int pass);
-  BandLimit band_limit() const;
+  BandLimit device_limit() const;  ///< what a band may take at most
+  BandLimit band_limit() const;    ///< what it shall take at most where it can be smaller
   const Band& band_for(int pass, const Rows& needed);
   bool has_fixed_weights() const { return plan_->method != Method::rpf; }  ///< box.cl in place of filter.cl
   void lay_out(const Band& band);

@@ -15,6 +15,7 @@
 #include "opencl/self_test.h"
 #include "opencl/session.h"
 #include "rpf/devices.h"
+#include "rpf/filter.h"
 #include "temporary_folder.h"
 
 namespace rpf {
@@ -61,6 +62,32 @@ TEST(Band, RespectsTheLargestBuffer) {
   const std::uint64_t records_of_two_rows = 2 * 3 * 2 * RPF_LANES * sizeof(float);  // laid out: 5 variables in a vector
   EXPECT_TRUE(fits(frame, color_only(), {0, 2}, {plenty, records_of_two_rows}));
   EXPECT_FALSE(fits(frame, color_only(), {0, 3}, {plenty, records_of_two_rows}));
+}
+
+/// A frame of 64 samples a pixel whose every row of pixels reads all of it.
+SampleBuffer three_long_rows() {
+  constexpr int width = 13000, samples = 64;
+  SampleBuffer buffer;
+  buffer.layout.slots = {"R", "G", "B", "film.X", "film.Y", "random.lens.U"};
+  buffer.data_window = {0, 0, width, 3};
+  for (int pixel = 0; pixel < 3 * width; ++pixel) {
+    buffer.first_sample.push_back(static_cast<std::uint32_t>(pixel) * samples);
+    for (int i = 0; i < samples; ++i) {
+      const float r = static_cast<float>(i * 7919 % samples) / samples, x = static_cast<float>(pixel % width);
+      buffer.values.insert(buffer.values.end(), {r, r * x, 1, x + 0.5F, static_cast<float>(pixel / width) + r, r});
+    }
+  }
+  buffer.first_sample.push_back(3 * width * samples);
+  return buffer;
+}
+
+TEST(Band, MayTakeMoreThanUsualWhereARowOfPixelsReadsMore) {
+  Settings settings;
+  settings.box_widths = {3};
+  settings.crop = Window{6000, 1, 4, 1};
+  const Image reference = filter(three_long_rows(), settings).image;
+  settings.backend = "opencl";
+  EXPECT_EQ(filter(three_long_rows(), settings).image.pixels, reference.pixels);
 }
 
 TEST(KernelSource, PutsIncludesInPlaceAndSaysWhereLinesComeFrom) {
