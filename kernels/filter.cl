@@ -11,12 +11,11 @@
 #define RPF_EXPLAIN 0
 #endif
 
-// PoCL compiles for the newest processor that its LLVM knows. Where the host has an instruction that counts bits in
-// vectors and says so (RPF_AVX512), all that a pixel takes is compiled for it, in a function of its own.
+#include "target.cl"
+
+// All that a pixel takes, down to the kernels.
 #ifdef RPF_AVX512
-#pragma clang attribute push(                                                                      \
-    __attribute__((target("avx512vpopcntdq,avx512f,avx512bw,avx512cd,avx512dq,avx512vl,popcnt"))), \
-    apply_to = function)
+#pragma clang attribute push(RPF_TARGET, apply_to = function)
 #endif
 
 #include "frame.cl"

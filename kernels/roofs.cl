@@ -1,5 +1,7 @@
 // What a device can do at best, for the benchmarks to compare with (bench/roofs.cpp). Each kernel is one kind of work
 // in explicit vectors, as the filter's kernels are written, without anything that waits.
+#include "target.cl"
+
 #include "frame.cl"
 
 #define RPF_CHAINS 8  // independent, so that an operation need not wait for the one before
@@ -36,8 +38,8 @@ __kernel void roof_exp(__global float16* out, const uint rounds, const float ste
 }
 
 // The bits that a plane of `words` 64-bit words has in common with each of two others, as histograms are counted.
-RPF_CPU_FEATURES
-static ulong common_bits(__global const ulong* a, __global const ulong* b0, __global const ulong* b1, uint words) {
+__attribute__((noinline)) RPF_TARGET static ulong common_bits(__global const ulong* a, __global const ulong* b0,
+                                                              __global const ulong* b1, uint words) {
   ulong count0 = 0, count1 = 0;
   for (uint w = 0; w < words; ++w) {
     const ulong bits = a[w];
