@@ -117,8 +117,7 @@ int run(const Options& o) {
 Command add_explain_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("explain", "Show what the filter thinks of a frame, or of one pixel");
-  options->filter.settings = explain_settings();
-  options->filter.profile = "paper";
+  start_from(explain_settings(), options->filter);
   command->add_option("-i,--input,INPUT", options->filter.input, "Sample file (deep OpenEXR or raw floats)")
       ->type_name("FILE");
   command->add_option("-o,--output", options->filter.output, "Folder for explain.exr, pictures and index.html")

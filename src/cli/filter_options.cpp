@@ -205,14 +205,20 @@ void add_filter_options(CLI::App& app, FilterOptions& options) {
   add_run_options(app, options);
 }
 
+void start_from(const Settings& named, FilterOptions& options) {
+  const std::string backend = options.settings.backend;
+  options.settings = named;
+  options.settings.backend = backend;
+  options.profile = named.profile == Profile::paper ? "paper" : "thesis";
+}
+
 void start_from_named_settings(const std::vector<std::string>& arguments, const std::string& preset,
                                FilterOptions& options) {
   const std::string method = value_in(arguments, "--method");
   const std::string name = preset.empty() ? value_in(arguments, "--preset") : preset;
-  if (!method.empty()) options.settings = method_settings(method);
+  if (!method.empty()) start_from(method_settings(method), options);
   if (name.empty() || options.settings.method != Method::rpf) return;
-  options.settings = preset_settings(name);
-  options.profile = options.settings.profile == Profile::paper ? "paper" : "thesis";
+  start_from(preset_settings(name), options);
 }
 
 FilterOptions parse_filter_options(const std::vector<std::string>& arguments, const std::string& preset) {

@@ -33,6 +33,9 @@ void add_channel_options(CLI::App& app, FilterOptions& options);
 void add_machine_options(CLI::App& app, FilterOptions& options);
 void add_filter_options(CLI::App& app, FilterOptions& options);
 
+/// Makes these settings what the options are where they are not given, but for the backend, which is the command's.
+void start_from(const Settings& named, FilterOptions& options);
+
 /// Makes the settings that --method or --preset among the arguments name what the options are where they are not given:
 /// to be called before the parser runs. `preset` in place of the arguments' where it is not empty. Throws Error(usage)
 /// for an unknown name.

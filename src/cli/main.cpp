@@ -15,7 +15,7 @@ constexpr const char* footer = R"(Examples:
   rpf render.samples.exr -o filtered.exr
   rpf --preset high render.samples.exr -o filtered.png
   rpf --time-budget 10s render.samples.exr -o filtered.exr
-  rpf --backend=auto render.samples.exr -o filtered.exr
+  rpf --preset balanced render.samples.exr -o filtered.exr
   rpf --method bilateral picture.png -o filtered.png
   rpf info render.samples.exr
   rpf compare before.exr filtered.exr reference.exr --side-by-side picture.png

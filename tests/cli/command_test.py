@@ -181,6 +181,10 @@ class CommandTest(CommandCase):
         self.assertRegex(run("--version").stdout, r"^rpf \d+\.\d+\.\d+\n$")
         self.expect(run("--help"), 0, "--profile", "--boxes", "Examples", "Exit codes")
 
+    def test_the_default_backend_is_auto_whatever_the_settings_start_from(self):
+        for start in ([], ["--preset", "fast"], ["--method", "gaussian"], ["explain"]):
+            self.expect(run(*start, "--help"), 0, "--backend TEXT:{cpu,opencl,auto}=auto")
+
     def test_environment_sets_defaults_and_options_beat_it(self):
         self.expect(run(EXAMPLE, "--dry-run", env={"RPF_NUM_THREADS": "3"}), 0, "3 threads")
         self.expect(run(EXAMPLE, "--dry-run", env={"SLURM_CPUS_PER_TASK": "5"}), 0, "5 threads")
