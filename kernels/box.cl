@@ -25,7 +25,8 @@ static void add_run(Box* box, uint first, uint last) {
 }
 
 static void gather_box(const Frame* frame, const rpf_pass* pass, uint pixel, Box* box) {
-  const int y = (int)(pixel / (uint)pass->width), x = (int)pixel - y * pass->width;
+  const int2 at = position_of(pass, pixel);
+  const int x = at.x, y = at.y;
   const int left = max(x - pass->reach, 0), right = min(x + pass->reach, pass->width - 1);
   const uint own = first_sample_of(frame, pass, pixel), after_own = own + samples_of(frame, pass, pixel);
   box->samples = box->runs = 0;

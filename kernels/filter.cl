@@ -95,7 +95,7 @@ static uint fill_neighborhood(const Frame* frame, const rpf_pass* pass, uint pix
   own_moments(frame, pass, first, own, &moments);
   const uint neighbors = gather(frame, pass, pixel, first, own, &moments, slot, drawn);
   if (RPF_PHASES < 3) return neighbors;
-  settle_shift(frame, pass, neighbors, slot, &moments);
+  settle_shift(pass, neighbors, slot, &moments);
   for (int c = 0; c < RPF_CHUNKS; ++c) n->shift[c] = moments.shift[c];
   measure_moments(pass, neighbors, slot, n);
   trace_neighborhood(pass, &moments, own, neighbors, slot, n, trace);
@@ -140,12 +140,14 @@ static uint leader_of(const Frame* frame, const rpf_pass* pass, Area block) {
 
 // Where a pixel of the tile is explained. Blocks are single pixels then: each measures for itself.
 static __global float* explained_at(const rpf_pass* pass, uint pixel, const Output* output) {
-  const int y = (int)(pixel / (uint)pass->width), x = (int)pixel - y * pass->width;
+  const int2 at = position_of(pass, pixel);
+  const int x = at.x, y = at.y;
   return output->explained + (size_t)((y - pass->tile_y) * pass->tile_width + x - pass->tile_x) * (RPF_PAIRS + 1);
 }
 
 static int is_inside(const rpf_pass* pass, Area area, uint pixel) {
-  const int y = (int)(pixel / (uint)pass->width), x = (int)pixel - y * pass->width;
+  const int2 at = position_of(pass, pixel);
+  const int x = at.x, y = at.y;
   return x >= area.x && x < area.end_x && y >= area.y && y < area.end_y;
 }
 

@@ -37,6 +37,12 @@ typedef struct {
   __global const float* minimum_tolerance;  // [RPF_FEATURE_CHUNKS * RPF_LANES] a; infinity: takes no part
 } Frame;
 
+// Column and row of a pixel in the frame.
+static int2 position_of(const rpf_pass* pass, uint pixel) {
+  const uint y = pixel / (uint)pass->width;
+  return (int2)((int)(pixel - y * (uint)pass->width), (int)y);
+}
+
 // On the device a record begins with its features, those that can reject it first: to test a candidate is to read one
 // cache line in most cases. Behind the variables stand the RPF_CARRIED values of c', so that what is averaged comes
 // along.

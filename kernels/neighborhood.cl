@@ -112,7 +112,8 @@ static uint16 attempt_draws(const Frame* frame, const rpf_pass* pass, rpf_words1
 static uint draw_candidates(const Frame* frame, const rpf_pass* pass, uint pixel, uint begin, uint end,
                             const Slot* slot) {
   const rpf_words key = rpf_draw_key(pass->seed, pass->pass, pixel);
-  const int y = (int)(pixel / (uint)pass->width), x = (int)pixel - y * pass->width;
+  const int2 at = position_of(pass, pixel);
+  const int x = at.x, y = at.y;
   uint count = 0;
   for (uint first = begin; first < end; first += RPF_LANES) {
     const uint16 draw = first + as_uint16(RPF_LANE_NUMBERS);
@@ -153,7 +154,8 @@ static void fetch_candidates(const Frame* frame, const rpf_pass* pass, uint cand
 }
 #endif
 
-// Copies the records of neighbors begin .. end - 1, so that they lie side by side.
+// Copies the records of neighbors begin .. end - 1, so that they lie side by side. It is load_chunk() in a loop, but
+// for the pointers: the compiler would read them again after every store.
 static void copy_records(const Frame* frame, const rpf_pass* pass, uint begin, uint end, const Slot* slot) {
   __global const uint* neighbors = slot->neighbors;
   __global const float16* chunks = frame->chunks;
@@ -209,13 +211,12 @@ static uint gather(const Frame* frame, const rpf_pass* pass, uint pixel, uint fi
 }
 
 // What no own sample has is shifted by the first neighbor that has it, by 0 where none has.
-static void settle_shift(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot,
-                         OwnMoments* moments) {
+static void settle_shift(const rpf_pass* pass, uint neighbors, const Slot* slot, OwnMoments* moments) {
   for (int c = 0; c < RPF_CHUNKS; ++c) {
     float16 shift = moments->shift[c];
 #if RPF_MISSING
     for (uint j = 0; j < neighbors && any_lane(rpf_is_missing(shift)); ++j)
-      shift = rpf_is_missing(shift) ? load_chunk(frame, pass, slot->neighbors[j], c) : shift;
+      shift = rpf_is_missing(shift) ? slot->records[c * pass->capacity + j] : shift;
 #endif
     moments->shift[c] = rpf_or_zero(shift);
   }

@@ -42,20 +42,6 @@ Settings settings_of(const Options& o) {
   return settings;
 }
 
-/// Needs more than the limit: refused before anything is read.
-void check_budget(const SampleFileInfo& info, const Settings& settings) {
-  constexpr double megabyte = 1 << 20;
-  const FrameSize size{info.data_window.pixel_count(), info.sample_count, info.max_samples, info.data_window.width};
-  const auto need = predict_explain_memory(size, needed_layout(info, settings), settings);
-  if (need > settings.max_memory)
-    throw Error(
-        ErrorKind::memory,
-        fmt::format("{}: explaining needs {:.0f} MB, the limit is {:.0f} MB; raise --max-memory, lower --threads "
-                    "or leave channels out with --features and --random",
-                    info.path, static_cast<double>(need) / megabyte,
-                    static_cast<double>(settings.max_memory) / megabyte));
-}
-
 /// The folder to write to; it is made in the end, inside one that exists.
 fs::path folder_of(const Options& o) { return (fs::path(o.filter.output) / "").parent_path(); }
 
@@ -96,7 +82,8 @@ int run(const Options& o) {
   }
   SampleReadOptions read_options = read_options_of(o.filter.map, settings.max_memory);
   const SampleFileInfo info = inspect_samples(o.filter.input, read_options);
-  check_budget(info, settings);
+  check_need(info, "explaining", predict_explain_memory(frame_size(info), needed_layout(info, settings), settings),
+             settings.max_memory);
   check_folder(folder_of(o));
   read_options.slots = needed_layout(info, settings).slots;
   SampleBuffer samples = read_samples(o.filter.input, read_options);

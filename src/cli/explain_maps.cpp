@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "report/heat_map.h"
+#include "report/picture.h"
 #include "rpf/srgb.h"
 
 namespace rpf::cli {
@@ -22,20 +23,7 @@ constexpr double shown_part = 0.995;
 
 using Color = std::array<float, 3>;
 
-Color linear(std::uint32_t rgb) {
-  Color color;
-  for (unsigned c = 0; c < 3; ++c)
-    color[c] = static_cast<float>(srgb_decode(static_cast<double>(rgb >> (16 - 8 * c) & 0xffU) / 255));
-  return color;
-}
-
-Image blank(const Window& size) {
-  Image image;
-  image.channels = {"R", "G", "B"};
-  image.data_window = image.display_window = {0, 0, size.width, size.height};
-  image.pixels.resize(size.pixel_count() * 3);
-  return image;
-}
+Image black(const Window& size) { return report::plain_picture(size.width, size.height, 0); }
 
 report::Legend magma_legend(const std::string& least, const std::string& most) {
   report::Legend legend;
@@ -72,16 +60,16 @@ std::uint32_t group_color(const std::vector<std::string>& groups, std::size_t gr
 ExplainMap attribution_map(const Explanation& explanation) {
   const Image& layers = explanation.layers;
   const std::vector<std::string>& groups = explanation.groups;
-  ExplainMap map{"noise-attribution", "", "", blank(layers.data_window), {}};
+  ExplainMap map{"noise-attribution", "", "", black(layers.data_window), {}};
   for (std::size_t g = 0; g < groups.size(); ++g) map.legend.entries.push_back({group_color(groups, g), groups[g]});
   map.legend.entries.push_back({nothing_color, "no noise that these explain"});
-  const Color nothing = linear(nothing_color);
+  const Color nothing = report::linear_light(nothing_color);
   for (std::size_t p = 0; p < layers.data_window.pixel_count(); ++p) {
     float* color = map.picture.pixel(p);
     float sum = 0;
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const float share = layers.pixel(p)[channel_of(layers, "share." + groups[g])];
-      const Color mixed = linear(group_color(groups, g));
+      const Color mixed = report::linear_light(group_color(groups, g));
       for (std::size_t c = 0; c < 3; ++c) color[c] += share * mixed[c];
       sum += share;
     }
@@ -211,7 +199,7 @@ std::vector<float> sorted_values(const Image& layers, std::size_t channel) {
 }
 
 ExplainMap scalar_map(const Image& values, std::size_t channel, const Scale& scale) {
-  ExplainMap map{"", "", "", blank(values.data_window),
+  ExplainMap map{"", "", "", black(values.data_window),
                  magma_legend(fmt::format("{:.3g}", scale.least), fmt::format("{:.3g}", scale.most))};
   for (std::size_t p = 0; p < values.data_window.pixel_count(); ++p) {
     const double value = values.pixel(p)[channel];

@@ -38,12 +38,7 @@ void check_budget(const SampleFileInfo& info, const Settings& settings, bool tel
   const double need_mb = static_cast<double>(need) / megabyte,
                limit_mb = static_cast<double>(settings.max_memory) / megabyte;
   if (tell) print("peak memory: {:.0f} MB of at most {:.0f} MB, {} threads\n", need_mb, limit_mb, settings.threads);
-  if (need > settings.max_memory)
-    throw Error(
-        ErrorKind::memory,
-        fmt::format("{}: filtering needs {:.0f} MB, the limit is {:.0f} MB; raise --max-memory, lower --threads or "
-                    "leave channels out with --features and --random",
-                    info.path, need_mb, limit_mb));
+  check_need(info, "filtering", need, settings.max_memory);
 }
 
 /// What a pass with fixed weights did.

@@ -1,6 +1,8 @@
 #include "cli/needs.h"
 
-#include "rpf/filter.h"
+#include <fmt/format.h>
+
+#include "rpf/error.h"
 
 namespace rpf::cli {
 
@@ -11,9 +13,22 @@ SampleLayout needed_layout(const SampleFileInfo& info, const Settings& settings)
   return {needed_slots(all, settings)};
 }
 
+FrameSize frame_size(const SampleFileInfo& info) {
+  return {info.data_window.pixel_count(), info.sample_count, info.max_samples, info.data_window.width};
+}
+
+void check_need(const SampleFileInfo& info, const char* doing, std::uint64_t need, std::uint64_t limit) {
+  constexpr double megabyte = 1 << 20;
+  if (need > limit)
+    throw Error(
+        ErrorKind::memory,
+        fmt::format("{}: {} needs {:.0f} MB, the limit is {:.0f} MB; raise --max-memory, lower --threads or leave "
+                    "channels out with --features and --random",
+                    info.path, doing, static_cast<double>(need) / megabyte, static_cast<double>(limit) / megabyte));
+}
+
 std::uint64_t predicted_memory(const SampleFileInfo& info, const Settings& settings) {
-  const FrameSize size{info.data_window.pixel_count(), info.sample_count, info.max_samples, info.data_window.width};
-  return predict_memory(size, needed_layout(info, settings), settings);
+  return predict_memory(frame_size(info), needed_layout(info, settings), settings);
 }
 
 }  // namespace rpf::cli

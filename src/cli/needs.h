@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "rpf/filter.h"
 #include "rpf/io.h"
 #include "rpf/settings.h"
 
@@ -10,6 +11,12 @@ namespace rpf::cli {
 
 /// The slots of a file that filtering with these settings reads. Throws Error(usage) for a group that is not there.
 SampleLayout needed_layout(const SampleFileInfo& info, const Settings& settings);
+
+FrameSize frame_size(const SampleFileInfo& info);
+
+/// Refuses what needs more than the limit, before anything is read: Error(memory) that says what helps. `doing`:
+/// "filtering".
+void check_need(const SampleFileInfo& info, const char* doing, std::uint64_t need, std::uint64_t limit);
 
 /// Peak bytes of reading and filtering it.
 std::uint64_t predicted_memory(const SampleFileInfo& info, const Settings& settings);

@@ -69,15 +69,17 @@ void write_index(const Options& o) {
   print("{}\n", file);
 }
 
-void print_list() {
+/// A line each, every line behind `before`.
+std::string list(const std::string& before) {
+  std::string text;
   for (const study::Experiment& experiment : study::experiments())
-    print("{:<16} {}\n", experiment.name, experiment.question);
-  print("{:<16} {}\n", "all", "all of them, and a page that leads to theirs");
+    text += fmt::format("{}{:<16} {}\n", before, experiment.name, experiment.question);
+  return text + fmt::format("{}{:<16} {}", before, "all", "all of them, and a page that leads to theirs");
 }
 
 int run(const Options& o) {
   if (o.name.empty()) {
-    print_list();
+    print("{}\n", list(""));
     return 0;
   }
   if (o.name != "all") study::find_experiment(o.name);
@@ -94,10 +96,7 @@ int run(const Options& o) {
 }
 
 std::string description() {
-  std::string text = "Run an experiment and write a page about it; goes on where it was stopped. Experiments:";
-  for (const study::Experiment& experiment : study::experiments())
-    text += fmt::format("\n  {:<16} {}", experiment.name, experiment.question);
-  return text + fmt::format("\n  {:<16} {}", "all", "all of them, and a page that leads to theirs");
+  return "Run an experiment and write a page about it; goes on where it was stopped. Experiments:\n" + list("  ");
 }
 
 }  // namespace

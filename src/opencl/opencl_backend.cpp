@@ -29,7 +29,7 @@ std::size_t work_items(const cl::Device& device, int threads) {
 
 /// The numbers of the plan that are compiled in (frame.cl).
 std::string definitions(const Frame& frame, const Plan& plan) {
-  const std::uint32_t most = most_samples(frame.first_sample);
+  const std::uint32_t most = plan.most_samples;
   const bool uniform = std::uint64_t{most} * (frame.first_sample.size() - 1) == frame.sample_count();
   return fmt::format(
       "-DRPF_VARIABLES={} -DRPF_RANDOM={} -DRPF_FEATURES={} -DRPF_REJECTING={} -DRPF_BINS={} -DRPF_CARRIED={} "
@@ -117,7 +117,7 @@ const OpenClBackend::PassTables& OpenClBackend::tables(int pass) {
       t.scales = session_.copy(scales_of(p));
     } else {
       t.offsets = session_.copy(p.offsets);
-      t.draws = session_.copy(draws_by_samples(p, most_samples(frame_->first_sample)));
+      t.draws = session_.copy(draws_by_samples(p, plan_->most_samples));
       t.entropy = session_.copy(p.entropy.units);
     }
     tables_.push_back(t);

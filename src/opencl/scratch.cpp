@@ -10,7 +10,7 @@ ScratchSizes::ScratchSizes(const Plan& plan) : most_samples(plan.most_samples) {
   const std::size_t variables = plan.variables.count(), features = plan.variables.feature_names.size();
   const auto bins = 2 * static_cast<kernel::uint>(plan.half_bins) + 1;
   for (const PassPlan& pass : plan.passes) capacity = std::max(capacity, pass.max_neighbors);
-  columns = 5 + features + plan.carried + 1;
+  columns = 5 + features + plan.carried + 1;  // RPF_COLUMNS of frame.cl
   if (plan.method == Method::rpf) {
     records = (variables + plan.carried + RPF_LANES - 1) / RPF_LANES * capacity;
     planes = variables * kernel::rpf_plane_words(capacity) * kernel::rpf_bin_vectors(bins);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/picture.h"
 #include "rpf/srgb.h"
 
 namespace rpf::report {
@@ -12,14 +13,6 @@ constexpr int gap = 8, bar_width = 16, tick_width = 6;  ///< pixels
 const double decades = std::log10(brightest_error / darkest_error);
 
 using Color = std::array<float, 3>;
-
-Image blank(int width, int height) {
-  Image image;
-  image.channels = {"R", "G", "B"};
-  image.data_window = image.display_window = {0, 0, width, height};
-  image.pixels.assign(image.data_window.pixel_count() * 3, 1.0F);
-  return image;
-}
 
 void put(Image& image, int x, int y, const Color& color) {
   std::copy(color.begin(), color.end(), image.pixel(static_cast<std::size_t>(y) * image.data_window.width + x));
@@ -39,7 +32,10 @@ void draw_bar(Image& image, int left) {
 
 std::array<float, 3> color_at(double position) {
   const double inside = position < 1 ? std::max(position, 0.0) : 1.0;  // NaN: 1
-  const std::uint32_t rgb = magma[static_cast<std::size_t>(std::lround(inside * 255))];
+  return linear_light(magma[static_cast<std::size_t>(std::lround(inside * 255))]);
+}
+
+std::array<float, 3> linear_light(std::uint32_t rgb) {
   Color color;
   for (unsigned c = 0; c < 3; ++c)
     color[c] = static_cast<float>(srgb_decode(static_cast<double>(rgb >> (16 - 8 * c) & 0xffU) / 255));
@@ -47,7 +43,7 @@ std::array<float, 3> color_at(double position) {
 }
 
 Image heat_map(const Image& errors) {
-  Image picture = blank(errors.data_window.width, errors.data_window.height);
+  Image picture = plain_picture(errors.data_window.width, errors.data_window.height, 1);
   for (std::size_t p = 0; p < errors.pixels.size(); ++p) {
     const Color color = color_at(std::log10(static_cast<double>(errors.pixels[p]) / darkest_error) / decades);
     std::copy(color.begin(), color.end(), picture.pixel(p));
@@ -57,7 +53,7 @@ Image heat_map(const Image& errors) {
 
 Image with_legend(const Image& picture) {
   const int width = picture.data_window.width, height = picture.data_window.height;
-  Image result = blank(width + gap + bar_width + tick_width, height);
+  Image result = plain_picture(width + gap + bar_width + tick_width, height, 1);
   for (int y = 0; y < height; ++y) {
     const float* row = picture.pixel(static_cast<std::size_t>(y) * width);
     std::copy(row, row + 3 * static_cast<std::size_t>(width),

@@ -14,6 +14,9 @@ constexpr double darkest_error = 1e-4, brightest_error = 1;
 /// 0xRRGGBB in sRGB, from dark to bright.
 extern const std::array<std::uint32_t, 256> magma;
 
+/// Linear light of 0xRRGGBB.
+std::array<float, 3> linear_light(std::uint32_t rgb);
+
 /// Linear light of the color at `position`, 0 dark to 1 bright; writing the picture makes sRGB of it again. NaN: 1.
 std::array<float, 3> color_at(double position);
 

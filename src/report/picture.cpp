@@ -70,14 +70,6 @@ void draw_outline(const Window& size, const Window& crop, const Scale& scale, in
     }
 }
 
-Image white(int width, int height) {
-  Image image;
-  image.channels = {"R", "G", "B"};
-  image.data_window = image.display_window = {0, 0, width, height};
-  image.pixels.assign(image.data_window.pixel_count() * 3, 1.0F);
-  return image;
-}
-
 /// As wide as the image above it allows, and at most twice as high: a narrow crop would become a tower.
 Scale magnification(const Window& size, const Window& crop, const Scale& scale) {
   const int factor = std::min(scale.length(size.width) / crop.width, 2 * scale.length(size.height) / crop.height);
@@ -86,13 +78,22 @@ Scale magnification(const Window& size, const Window& crop, const Scale& scale) 
 
 }  // namespace
 
+Image plain_picture(int width, int height, float value) {
+  Image image;
+  image.channels = {"R", "G", "B"};
+  image.data_window = image.display_window = {0, 0, width, height};
+  image.pixels.assign(image.data_window.pixel_count() * 3, value);
+  return image;
+}
+
 Image side_by_side(const std::vector<Image>& images, const std::optional<Window>& crop) {
   const Window& size = images.front().data_window;
   const int count = static_cast<int>(images.size());
   const Scale scale = scale_of(size, count);
   const int width = scale.length(size.width), height = scale.length(size.height);
   const Scale magnified = crop ? magnification(size, *crop, scale) : scale;
-  Image result = white(count * width + (count - 1) * gap, height + (crop ? gap + magnified.length(crop->height) : 0));
+  Image result =
+      plain_picture(count * width + (count - 1) * gap, height + (crop ? gap + magnified.length(crop->height) : 0), 1);
   int left = 0;
   for (const Image& image : images) {
     paste(image, {0, 0, size.width, size.height}, scale, left, 0, result);

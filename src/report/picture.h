@@ -7,6 +7,9 @@
 
 namespace rpf::report {
 
+/// An image of R, G and B, all of one value.
+Image plain_picture(int width, int height, float value);
+
 /// R, G and B of images of equal size in a row, with gaps of white pixels: small ones enlarged by whole pixels, large
 /// ones averaged over squares of whole pixels, so that the row is not much wider than 4,000 pixels. With a crop, it is
 /// outlined in each, and below each stands its crop, enlarged by whole pixels to at most the width and twice the height

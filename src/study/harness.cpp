@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <system_error>
 
 #include "bench/results_file.h"
@@ -125,14 +126,13 @@ class Measuring {
 
   double work() const {
     double sum = 0;
-    std::map<std::string, bool> references, samples;
+    std::set<std::string> references, samples;  // counted once
     for (const Run& run : runs_) {
       if (has(run)) continue;
       sum += filtering_work(run.frame, options_.settings_of(run.options));
-      if (!fs::exists(run.frame.reference) && !std::exchange(references[run.frame.reference], true))
+      if (!fs::exists(run.frame.reference) && references.insert(run.frame.reference).second)
         sum += rendering_work(run.frame, run.frame.reference_samples);
-      if (!std::exchange(samples[run.frame.samples], true))
-        sum += rendering_work(run.frame, run.frame.samples_per_pixel);
+      if (samples.insert(run.frame.samples).second) sum += rendering_work(run.frame, run.frame.samples_per_pixel);
     }
     return sum;
   }
