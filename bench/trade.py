@@ -13,13 +13,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+import oidn
 from trade_plots import plot_frame, plot_summary
 from trade_tables import chosen_table, frames_table, replace, settings_table
 
 PROJECT = Path(__file__).resolve().parent.parent
 PAGE, PICTURES = PROJECT / "docs/trade.md", PROJECT / "docs/images"
 MEANS, MEAN_SEED = (8, 16, 32, 64), 1001  # samples a pixel; a seed that is not the sample files'
-OIDN = "pyoidn==2.5.1.0"
 
 
 class Trade:
@@ -66,33 +66,12 @@ class Trade:
                  MEAN_SEED, "-o", image, "-q")
         return self.error(image, self.files(frame)[1])
 
-    def oidn_python(self):
-        """A Python that has pyoidn; None where it cannot be had."""
-        folder = self.work / "venv"
-        python = folder / "bin/python"
-        try:
-            if not python.exists():
-                subprocess.run([sys.executable, "-m", "venv", folder], check=True)
-            subprocess.run([python, "-m", "pip", "install", "-q", OIDN], check=True)
-        except (OSError, subprocess.CalledProcessError) as failure:
-            print("trade: Open Image Denoise is left out:", failure)
-            return None
-        return python
-
     def oidn(self, python, frame):
         """Cost and error of Open Image Denoise. Its rounds are not those of the sweep: it is no setting of rpf."""
         samples, reference = self.files(frame)
-        raw, noisy, clean = (self.work / name for name in ("oidn.rpf", "noisy.rpf", "clean.rpf"))
-        self.run("convert", samples, "-o", raw)
-        output = subprocess.run([python, PROJECT / "bench/oidn_point.py", raw, noisy, clean, str(self.rounds)], check=True,
-                                stdout=subprocess.PIPE, text=True).stdout
-        measured = json.loads(output)
-        for name, image in (("OIDN", noisy), ("OIDN, prefiltered features", clean)):
-            exr = image.with_suffix(".exr")
-            self.run(image, "--boxes", "none", "-o", exr, "-q")
-            measured[name]["error"] = self.error(exr, reference)
-        for path in (raw, noisy, clean):
-            path.unlink()
+        measured = oidn.denoise(self.rpf, python, samples, self.work, self.rounds)
+        for name in (oidn.NOISY, oidn.CLEAN):
+            measured[name]["error"] = self.error(measured[name].pop("image"), reference)
         return measured
 
     def measure(self):
@@ -101,7 +80,7 @@ class Trade:
             if "scene" in frame:
                 for spp in MEANS:
                     self.keep(f"{frame['name']}: mean of {spp}", lambda: self.mean_error(frame, spp))
-        python = self.oidn_python()
+        python = oidn.python_with_oidn(self.work / "venv")
         if python:
             for frame in self.plan["frames"]:
                 self.keep(f"{frame['name']}: OIDN", lambda: self.oidn(python, frame))
@@ -123,7 +102,7 @@ class Trade:
         for spp in MEANS:
             if f"{frame}: mean of {spp}" in self.others:
                 row[f"mean of {spp}"] = point(self.others[f"{frame}: mean of {spp}"], [], [])
-        for name in ("OIDN", "OIDN, prefiltered features"):
+        for name in (oidn.NOISY, oidn.CLEAN):
             measured = self.others.get(f"{frame}: OIDN", {}).get(name)
             if measured:  # it needs the mean of the samples first, which is read and averaged by rpf
                 start = row["mean"]

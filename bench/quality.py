@@ -1,0 +1,121 @@
+"""Presets beside Open Image Denoise with noisy features, frame by frame, on the same samples.
+
+Usage: quality.py FOLDER... [--build BUILD] [--presets fast,balanced,high] [--page PAGE] [--json OUT.json]
+
+A FOLDER holds NAME.samples.exr or .rpf and NAME.reference.exr or .rpf (NAME-4spp.samples.exr and NAME.ref.exr are found too).
+Ratios are to Open Image Denoise, of trimmed relMSE and of FLIP: below 1 is better than it. --page replaces the table between
+<!-- quality --> and <!-- end --> there.
+"""
+import argparse
+import json
+import math
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import oidn
+from trade_tables import replace
+
+PROJECT = Path(__file__).resolve().parent.parent
+
+
+def frames_of(folders):
+    """[(name, samples, reference)], by name."""
+    frames = []
+    for folder in map(Path, folders):
+        for samples in sorted(folder.glob("*.samples.*")):
+            name = samples.name.split(".samples.")[0]
+            stems = [name, name.rsplit("-", 1)[0]]
+            found = [p for s in stems for kind in ("reference", "ref") for p in folder.glob(f"{s}.{kind}.*")]
+            if found:
+                frames.append((name, samples, found[0]))
+            else:
+                print(f"quality: {samples} has no reference beside it", file=sys.stderr)
+    return frames
+
+
+class Measurement:
+    def __init__(self, rpf, python, presets, work):
+        self.rpf, self.python, self.presets, self.work = rpf, python, presets, work
+
+    def run(self, *arguments):
+        return subprocess.run([self.rpf, *map(str, arguments)], check=True, stdout=subprocess.PIPE, text=True).stdout
+
+    def as_image(self, path):
+        """References may be sample files of one sample a pixel."""
+        if path.suffix != ".rpf":
+            return path
+        image = self.work / "reference.exr"
+        self.run(path, "--method", "rpf", "--boxes", "none", "-o", image, "-q")
+        return image
+
+    def frame(self, samples, reference):
+        """{method: errors} of one frame."""
+        images = {"mean": self.work / "mean.exr"}
+        self.run(samples, "--method", "rpf", "--boxes", "none", "-o", images["mean"], "-q")
+        for preset in self.presets:
+            images[preset] = self.work / f"{preset}.exr"
+            self.run(samples, "--preset", preset, "-o", images[preset], "-q")
+        if self.python:
+            images[oidn.NOISY] = oidn.denoise(self.rpf, self.python, samples, self.work, 1)[oidn.NOISY]["image"]
+        errors = json.loads(self.run("compare", "--json", *images.values(), self.as_image(reference)))["images"]
+        measured = dict(zip(images, errors))
+        for name in measured:
+            measured[name]["energy"] /= measured["mean"]["energy"]
+        return measured
+
+
+def geometric(values):
+    return math.exp(sum(map(math.log, values)) / len(values))
+
+
+def table(results, presets):
+    """A frame each, then geometric means."""
+    ratio = lambda errors, name, key: errors[name][key] / errors[oidn.NOISY][key]
+    head = ["frame", "mean", "OIDN"] + [f"{p}: relMSE, ratio, FLIP ratio, energy" for p in presets]
+    rows = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
+    for name, errors in results.items():
+        cells = [name] + [f"{errors[m]['trimmed relMSE']:.4f}" for m in ("mean", oidn.NOISY)]
+        for p in presets:
+            e = errors[p]
+            cells.append(f"{e['trimmed relMSE']:.4f}, **{ratio(errors, p, 'trimmed relMSE'):.2f}**, {ratio(errors, p, 'FLIP'):.2f}, {e['energy']:.3f}")
+        rows.append("| " + " | ".join(cells) + " |")
+    means = [f"{geometric([e[m]['trimmed relMSE'] for e in results.values()]):.4f}" for m in ("mean", oidn.NOISY)]
+    for p in presets:
+        both = [geometric([ratio(e, p, key) for e in results.values()]) for key in ("trimmed relMSE", "FLIP")]
+        worst = max(ratio(e, p, "trimmed relMSE") for e in results.values())
+        means.append(f"**{both[0]:.3f}**, FLIP {both[1]:.3f}, worst {worst:.2f}")
+    return rows + ["| " + " | ".join([f"**{len(results)} frames**"] + means) + " |"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", nargs="+")
+    parser.add_argument("--build", default=PROJECT / "build/release")
+    parser.add_argument("--presets", default="fast,balanced,high")
+    parser.add_argument("--page")
+    parser.add_argument("--json")
+    options = parser.parse_args()
+    build, presets = Path(options.build).resolve(), options.presets.split(",")
+    python = oidn.python_with_oidn(build / "oidn")
+    if not python:
+        return 1
+    results = {}
+    with tempfile.TemporaryDirectory() as work:
+        measurement = Measurement(build / "rpf", python, presets, Path(work))
+        for name, samples, reference in frames_of(options.folders):
+            results[name] = measurement.frame(samples, reference)
+            print(table({name: results[name]}, presets)[2], flush=True)
+    rows = table(results, presets)
+    print("\n".join(rows))
+    if options.json:
+        Path(options.json).write_text(json.dumps(results, indent=1))
+    if options.page:
+        page = Path(options.page)
+        page.write_text(replace(page.read_text(encoding="utf-8"), "quality", rows), encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,49 @@
+"""Writes a checkpoint's network as the file that `rpf --model` reads (docs/network.md, "File").
+
+Usage: export.py CHECKPOINT OUT.rpfnet --name NAME [--note TEXT]
+"""
+import argparse
+import json
+
+import numpy as np
+import torch
+
+from estimator import EMBEDDING, Network
+
+
+def layer_values(layer):
+    """Weights as [ky][kx][in][out], then the bias, as binary16; 0 never has a sign."""
+    weights = layer.weight.detach().permute(2, 3, 1, 0).flatten()
+    return np.concatenate([weights.numpy(), layer.bias.detach().numpy()]).astype("<f2") + np.float16(0)
+
+
+def write(network, path, name, note):
+    header = dict(format="rpf-network", version=1, name=name, sample_features=network.sample_features, channels=network.channels,
+                  embedding=EMBEDDING, training=note)
+    with open(path, "wb") as file:
+        file.write(json.dumps(header).encode() + b"\n")
+        for layer in network.layers.values():
+            layer_values(layer).astype("<f2").tofile(file)
+
+
+def network_of(state):
+    """The network of a checkpoint, with the averaged weights."""
+    network = Network(state["channels"], state["sample_features"])
+    network.load_state_dict(state["average"])
+    return network
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("checkpoint")
+    parser.add_argument("out")
+    parser.add_argument("--name", required=True)
+    parser.add_argument("--note", default="")
+    args = parser.parse_args()
+    state = torch.load(args.checkpoint, weights_only=False)
+    facts = f"seed {state['seed']}, {state['step']} steps, {state['seconds'] / 3600:.2f} hours, PyTorch {state['torch']}"
+    write(network_of(state), args.out, args.name, f"{args.note}{'; ' if args.note else ''}{facts}")
+
+
+if __name__ == "__main__":
+    main()

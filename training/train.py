@@ -1,0 +1,152 @@
+"""Trains one network. Resumable: all state is in --run, written every few minutes; stop it at any time.
+
+Usage: train.py --run DIR --frames CACHE --validation CACHE --hours H [--channels 24,40,64,80] [--sample-features 24] [--seed 1]
+CACHE holds NAME.samples.npy ([27, n, y, x], frames.py) and NAME.ref.npy ([3, y, x]), exposed alike; it may grow during training.
+The learning rate follows the hours spent, so a run that is interrupted ends with the same schedule.
+"""
+import argparse
+import json
+import math
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import torch
+import torch.nn.functional as F
+
+from augment import augmented
+from estimator import Network
+
+PEAK, FLOOR, WARM_UP = 1.5e-3, 1e-5, 100
+AVERAGE = 0.998  # of the weights that are validated and exported: a mean over the latest 500 steps
+CHECKPOINT_SECONDS = 180
+HIGHEST_COUNT_VALIDATED = 4
+
+
+def loss_of(result, reference):
+    """Relative squared error, bounded; relative error; energy of blocks (learned.md of the prototype)."""
+    square = (result - reference).square() / (reference.square() + 0.01)
+    relative = (result - reference).abs() / (result.abs() + reference.abs() + 0.02)
+    mean = lambda x: F.avg_pool2d(x[None], 16)[0]
+    block = (mean(result) - mean(reference)).abs() / (mean(reference) + 0.05)
+    return (square / (1 + square / 2)).mean() + 0.4 * relative.mean() + 0.25 * block.mean()
+
+
+def trimmed_error(result, reference):
+    """relMSE without the worst 0.1 % of the pixels."""
+    error = ((result - reference).square() / (reference.square() + 0.01)).mean(0).flatten().sort().values
+    return float(error[:len(error) - len(error) // 1000].mean())
+
+
+class Frames:
+    """A folder of frames, mapped; looked at again now and then because it may grow."""
+
+    def __init__(self, folder):
+        self.folder, self.names = Path(folder), []
+        self.refresh()
+
+    def refresh(self):
+        self.names = sorted(p.name[:-len(".samples.npy")] for p in self.folder.glob("*.samples.npy"))
+
+    def load(self, name):
+        return (torch.from_numpy(np.load(self.folder / f"{name}.samples.npy")),
+                torch.from_numpy(np.load(self.folder / f"{name}.ref.npy")))
+
+
+class Run:
+    def __init__(self, args):
+        self.args, self.folder = args, Path(args.run)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        torch.manual_seed(args.seed)
+        self.network = Network([int(c) for c in args.channels.split(",")], args.sample_features)
+        self.average = {k: v.clone() for k, v in self.network.state_dict().items()}
+        self.optimizer = torch.optim.Adam(self.network.parameters(), lr=PEAK, betas=(0.9, 0.99))
+        self.step, self.seconds, self.recent = 0, 0.0, []
+        self.rng = np.random.default_rng(args.seed)
+        if (self.folder / "checkpoint.pt").exists():
+            self.restore(torch.load(self.folder / "checkpoint.pt", weights_only=False))
+
+    def restore(self, state):
+        self.network.load_state_dict(state["network"])
+        self.optimizer.load_state_dict(state["optimizer"])
+        self.average, self.step, self.seconds = state["average"], state["step"], state["seconds"]
+        self.rng.bit_generator.state = state["rng"]
+
+    def save(self):
+        state = dict(network=self.network.state_dict(), optimizer=self.optimizer.state_dict(), average=self.average, step=self.step,
+                     seconds=self.seconds, rng=self.rng.bit_generator.state, channels=self.network.channels,
+                     sample_features=self.network.sample_features, seed=self.args.seed, torch=torch.__version__)
+        torch.save(state, self.folder / "checkpoint.tmp")
+        (self.folder / "checkpoint.tmp").replace(self.folder / "checkpoint.pt")
+
+    def rate(self):
+        progress = min(self.seconds / (self.args.hours * 3600), 1)
+        return max(FLOOR, PEAK * 0.5 * (1 + math.cos(math.pi * progress))) * min(1, (self.step + 1) / WARM_UP)
+
+    def train_step(self, frames):
+        samples, reference = frames.load(frames.names[int(self.rng.integers(len(frames.names)))])
+        samples, reference, has_albedo = augmented(samples, reference, self.rng)
+        for group in self.optimizer.param_groups:
+            group["lr"] = self.rate()
+        loss = loss_of(self.network(samples, has_albedo), reference)
+        self.optimizer.zero_grad(set_to_none=True)
+        loss.backward()
+        norm = torch.nn.utils.clip_grad_norm_(self.network.parameters(), 1.0)
+        if torch.isfinite(norm):
+            self.optimizer.step()
+            decay = min(AVERAGE, self.step / (self.step + 10))
+            for k, v in self.network.state_dict().items():
+                self.average[k].lerp_(v, 1 - decay)
+        self.step += 1
+        self.recent.append(float(loss.detach()))
+
+    @torch.no_grad()
+    def validate(self, frames):
+        network = Network(self.network.channels, self.network.sample_features)
+        network.load_state_dict(self.average)
+        errors = []
+        for name in frames.names:
+            samples, reference = frames.load(name)
+            errors.append(trimmed_error(network(samples[:, :HIGHEST_COUNT_VALIDATED].float()), reference))
+        return float(np.exp(np.mean(np.log(errors)))), float(np.mean(errors))
+
+    def log(self, validation, frames):
+        line = dict(step=self.step, hours=round(self.seconds / 3600, 4), frames=len(frames.names), rate=self.rate(),
+                    loss=float(np.mean(self.recent)), validation=validation[0], validation_mean=validation[1], time=time.strftime("%H:%M:%S"))
+        self.recent = []
+        with open(self.folder / "log.jsonl", "a") as file:
+            file.write(json.dumps(line) + "\n")
+        print(json.dumps(line), flush=True)
+
+    def go(self):
+        frames, validation = Frames(self.args.frames), Frames(self.args.validation)
+        saved = time.monotonic()
+        while self.seconds < self.args.hours * 3600:
+            start = time.monotonic()
+            self.train_step(frames)
+            self.seconds += time.monotonic() - start
+            if time.monotonic() - saved > CHECKPOINT_SECONDS or self.seconds >= self.args.hours * 3600:
+                self.save()
+                self.log(self.validate(validation), frames)
+                frames.refresh()
+                saved = time.monotonic()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--run", required=True)
+    parser.add_argument("--frames", required=True)
+    parser.add_argument("--validation", required=True)
+    parser.add_argument("--hours", type=float, required=True)
+    parser.add_argument("--channels", default="24,40,64,80")
+    parser.add_argument("--sample-features", type=int, default=24)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--threads", type=int, default=1)
+    args = parser.parse_args()
+    torch.set_num_threads(args.threads)
+    Run(args).go()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
