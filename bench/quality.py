@@ -76,15 +76,15 @@ def table(results, presets):
     head = ["frame", "mean", "OIDN"] + [f"{p}: relMSE, ratio, FLIP ratio, energy" for p in presets]
     rows = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
     for name, errors in results.items():
-        cells = [name] + [f"{errors[m]['trimmed relMSE']:.4f}" for m in ("mean", oidn.NOISY)]
+        cells = [name] + [f"{errors[m]['trimmed_relMSE']:.4f}" for m in ("mean", oidn.NOISY)]
         for p in presets:
             e = errors[p]
-            cells.append(f"{e['trimmed relMSE']:.4f}, **{ratio(errors, p, 'trimmed relMSE'):.2f}**, {ratio(errors, p, 'FLIP'):.2f}, {e['energy']:.3f}")
+            cells.append(f"{e['trimmed_relMSE']:.4f}, **{ratio(errors, p, 'trimmed_relMSE'):.2f}**, {ratio(errors, p, 'FLIP'):.2f}, {e['energy']:.3f}")
         rows.append("| " + " | ".join(cells) + " |")
-    means = [f"{geometric([e[m]['trimmed relMSE'] for e in results.values()]):.4f}" for m in ("mean", oidn.NOISY)]
+    means = [f"{geometric([e[m]['trimmed_relMSE'] for e in results.values()]):.4f}" for m in ("mean", oidn.NOISY)]
     for p in presets:
-        both = [geometric([ratio(e, p, key) for e in results.values()]) for key in ("trimmed relMSE", "FLIP")]
-        worst = max(ratio(e, p, "trimmed relMSE") for e in results.values())
+        both = [geometric([ratio(e, p, key) for e in results.values()]) for key in ("trimmed_relMSE", "FLIP")]
+        worst = max(ratio(e, p, "trimmed_relMSE") for e in results.values())
         means.append(f"**{both[0]:.3f}**, FLIP {both[1]:.3f}, worst {worst:.2f}")
     return rows + ["| " + " | ".join([f"**{len(results)} frames**"] + means) + " |"]
 
