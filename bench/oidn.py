@@ -24,7 +24,7 @@ def python_with_oidn(folder):
 def denoise(rpf, python, samples, work, rounds):
     """Denoises the plain mean of a sample file -> {NOISY: {"cpu": [...], "wall": [...], "image": path}, CLEAN: ...}."""
     raw, noisy, clean = (work / name for name in ("oidn.rpf", "noisy.rpf", "clean.rpf"))
-    subprocess.run([rpf, "convert", samples, "-o", raw, "-q"], check=True)
+    subprocess.run([rpf, "convert", samples, "-o", raw], check=True)
     script = Path(__file__).with_name("oidn_point.py")
     output = subprocess.run([python, script, raw, noisy, clean, str(rounds)], check=True, stdout=subprocess.PIPE, text=True).stdout
     measured = json.loads(output)

@@ -7,14 +7,21 @@ GROUPS = {"N": ["normal"], "albedo": ["albedo"], "P": ["position"], "second": ["
           "time": ["time"], "film": ["film"], "numbers": ["light", "bsdf"]}
 
 
-def chosen_samples(samples, rng):
-    """1 to all of the samples, 4 most often. [27, n, y, x]"""
-    n = samples.shape[1]
+MOST_VALUES = 8 * 128 * 128  # samples of a step: frames of many samples are cut, so that all steps cost about the same
+ALIGNED = 8  # pixels: cells of the coarsest level
+
+
+def chosen_samples(samples, reference, rng):
+    """1 to all of the samples, 4 most often, of the frame or of a part of it. [27, n, y, x]"""
+    n, height, width = samples.shape[1:]
     powers = [2 ** k for k in range(n.bit_length()) if 2 ** k <= n]
     count = 4 if rng.random() < (0.6 if n <= 8 else 0.1) else powers[int(rng.integers(len(powers)))]
-    if count == n:
-        return samples
-    return samples[:, torch.from_numpy(rng.permutation(n)[:count].copy())]
+    if count < n:
+        samples = samples[:, torch.from_numpy(rng.permutation(n)[:count].copy())]
+    while count * height * width > MOST_VALUES and min(height, width) > 4 * ALIGNED:
+        height, width = (height // 2, width) if height >= width else (height, width // 2)
+    y, x = (int(rng.integers((size - part) // ALIGNED + 1)) * ALIGNED for size, part in zip(samples.shape[2:], (height, width)))
+    return samples[:, :, y:y + height, x:x + width], reference[:, y:y + height, x:x + width]
 
 
 def turned(samples, reference, rng):
@@ -83,8 +90,8 @@ def quieter(samples, reference, rng):
 
 def augmented(samples, reference, rng):
     """[27, n, y, x], [3, y, x] of one frame -> the same for a step, and whether albedo is there."""
-    samples = chosen_samples(samples, rng).float()
-    samples, reference = turned(samples, reference.float(), rng)
+    samples, reference = chosen_samples(samples, reference, rng)
+    samples, reference = turned(samples.float(), reference.float(), rng)
     samples, reference = recolored(samples, reference, rng)
     samples = quieter(world_turned(samples, rng), reference, rng)
     samples, has_albedo = without_groups(samples, rng)

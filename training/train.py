@@ -18,7 +18,7 @@ import torch.nn.functional as F
 from augment import augmented
 from estimator import Network
 
-PEAK, FLOOR, WARM_UP = 1.5e-3, 1e-5, 100
+PEAK, FLOOR, WARM_UP = 1.5e-3, 1e-5, 100  # learning rates; steps
 AVERAGE = 0.998  # of the weights that are validated and exported: a mean over the latest 500 steps
 CHECKPOINT_SECONDS = 180
 HIGHEST_COUNT_VALIDATED = 4
@@ -30,7 +30,7 @@ def loss_of(result, reference):
     relative = (result - reference).abs() / (result.abs() + reference.abs() + 0.02)
     loss = (square / (1 + square / 2)).mean() + 0.4 * relative.mean()
     for width, share in ((16, 0.25), (64, 0.4)):
-        a, b = (F.avg_pool2d(x[None], width)[0] for x in (result, reference))
+        a, b = (F.avg_pool2d(x[None], min(width, *x.shape[1:]))[0] for x in (result, reference))
         loss = loss + share * ((a - b).abs() / (b + 0.05)).mean()
     return loss
 
