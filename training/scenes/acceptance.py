@@ -18,7 +18,8 @@ def view_score(seen):
     _, pixels = np.unique(seen.shape[seen.hit], return_counts=True)
     share = pixels / seen.hit.size
     near, far = np.percentile(depth, [5, 95])
-    if np.percentile(depth, 3) < NEAREST or (share > SMALLEST_SHARE).sum() < LEAST_SHAPES or share.max() > 0.8 or seen.emitter.mean() > 0.2:
+    crowded = np.percentile(depth, 3) < NEAREST or share.max() > 0.8 or seen.emitter.mean() > 0.2
+    if crowded or (share > SMALLEST_SHARE).sum() < LEAST_SHAPES:
         return None
     return np.minimum(share, 0.04).sum() / 0.04 + 0.5 * (np.log(far / near) > 0.5) - 1.5 * max(0, share.max() - 0.5)
 
@@ -56,7 +57,7 @@ def reference_forecast(samples, reference_spp, exposure):
 def noise(mean, count, reference, variance, exposure):
     """Relative squared errors at the frame's exposure: of 4 samples, of the reference, and their ratio."""
     scale = np.square(reference * exposure) + 0.01
-    of_mean = trimmed(np.square((mean - reference) * exposure) / scale) * count / 4
+    of_mean = trimmed(np.square((mean - reference) * exposure) / scale) * int(count) / 4
     of_reference = trimmed(variance * exposure**2 / scale)
     return {"error of 4 samples": of_mean, "error of reference": of_reference, "ratio": of_mean / max(of_reference, 1e-12)}
 

@@ -59,7 +59,8 @@ class SceneBuilder:
     def add_glow(self, mesh, image, weight=1.0):
         """A mesh that glows with a texture."""
         spare = np.zeros((GLOW_FACES - len(mesh.faces), 3), mesh.faces.dtype)
-        self.add("glow", mesh._replace(faces=np.concatenate([mesh.faces, spare])), self.materials.black, area_light(bitmap(image), weight))
+        mesh = mesh._replace(faces=np.concatenate([mesh.faces, spare]))
+        self.add("glow", mesh, self.materials.black, area_light(bitmap(image), weight))
 
     def set_environment(self, image, angle, weight):
         turn = mi.ScalarTransform4f().rotate([0, 1, 0], float(angle))

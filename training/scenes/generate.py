@@ -1,10 +1,11 @@
 """Random scenes to train on: samples by Mitsuba 3, and a reference of each.
 
-Usage: generate.py --out DIR --first SEED --count N [--size 128x128] [--spp 8] [--reference-spp 180] [--stratified-share 0.33]
-                   [--processes CORES]
+Usage: generate.py --out DIR --first SEED --count N [--size 128x128] [--spp 8] [--reference-spp 180]
+                   [--stratified-share 0.33] [--processes CORES]
 
-Writes SEED.samples.rpf and SEED.reference.rpf (one sample a pixel: the mean), both raw sample files (docs/file-format.md) that `rpf`
-reads. Files appear as a whole, those that are there are skipped: stop it at any time. A seed gives the same scene on every run.
+Writes SEED.samples.rpf and SEED.reference.rpf (one sample a pixel: the mean), both raw sample files (docs/file-format.md)
+that `rpf` reads. Files appear as a whole, those that are there are skipped: stop it at any time. A seed gives the same scene
+on every run.
 """
 import argparse
 import gc

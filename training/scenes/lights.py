@@ -28,8 +28,7 @@ def _place(rng, layout, size):
     if rng.random() < 0.2:  # a lamp among the objects
         x, z = rng.uniform(-1, 1, 2) * layout.half
         return np.array([x, rng.uniform(0.3, 1.8), z]), rng.normal(0, 0.6, 3), min(size, 0.12)
-    azimuth, elevation = rng.uniform(0, 2 * np.pi), np.radians(rng.uniform(15, 88))
-    toward = np.array([np.cos(azimuth) * np.cos(elevation), np.sin(elevation), np.sin(azimuth) * np.cos(elevation)])
+    toward = shapes.direction(rng.uniform(0, 2 * np.pi), np.radians(rng.uniform(15, 88)))
     return toward * rng.uniform(2.5, 7), rng.normal(0, 0.6, 3), size
 
 

@@ -1,4 +1,5 @@
-"""BSDFs. Every kind has one form with the same parameters, textures all have one size: so Dr.Jit finds the kernels of earlier scenes.
+"""BSDFs. Every kind has one form with the same parameters, textures all have one size: so Dr.Jit finds the kernels of earlier
+scenes.
 
 Loaded BSDFs count as soon as they exist: a kernel holds one entry for each that is alive in the process.
 """

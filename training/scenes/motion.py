@@ -1,4 +1,6 @@
-"""Things that move while the shutter is open. Mitsuba has no moving shapes: the interval is cut into slots, and the scene stands still in each."""
+"""Things that move while the shutter is open.
+
+Mitsuba has no moving shapes: the interval is cut into slots, and the scene stands still in each."""
 import drjit as dr
 import mitsuba as mi
 import numpy as np

@@ -11,11 +11,12 @@ import textures
 SHAPES = {
     "sphere": (shapes.sphere, 4, False, True), "bumpy": (shapes.bumpy, 1.5, False, True),
     "superellipsoid": (shapes.superellipsoid, 2, False, True), "box": (shapes.box, 2.5, False, True),
-    "cylinder": (shapes.cylinder, 2, False, True), "vase": (shapes.vase, 1.5, True, False), "knot": (shapes.knot, 3, False, True),
-    "blob": (shapes.blob, 2, False, True), "stacked": (shapes.stacked_boxes, 1.5, True, False),
-    "stairs": (shapes.stairs, 0.6, True, False), "fence": (plants.fence, 1.2, True, False), "grass": (plants.grass, 1.6, True, False),
-    "leaves": (plants.leaves, 1.8, False, False), "hair": (plants.hair, 1.2, False, False), "rocks": (plants.rocks, 0.8, True, False),
-    "card": (shapes.quad, 2.2, False, False),
+    "cylinder": (shapes.cylinder, 2, False, True), "vase": (shapes.vase, 1.5, True, False),
+    "knot": (shapes.knot, 3, False, True), "blob": (shapes.blob, 2, False, True),
+    "stacked": (shapes.stacked_boxes, 1.5, True, False), "stairs": (shapes.stairs, 0.6, True, False),
+    "fence": (plants.fence, 1.2, True, False), "grass": (plants.grass, 1.6, True, False),
+    "leaves": (plants.leaves, 1.8, False, False), "hair": (plants.hair, 1.2, False, False),
+    "rocks": (plants.rocks, 0.8, True, False), "card": (shapes.quad, 2.2, False, False),
 }
 LARGER = ("leaves", "fence", "knot", "hair")
 

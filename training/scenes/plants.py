@@ -41,8 +41,9 @@ def grass(rng, extent=1.0):
     angle, tall = rng.uniform(0, np.pi, n), height * rng.uniform(0.5, 1.3, n)
     lean_x, lean_z = rng.normal(0, 0.35, (2, n)) * tall
     root = ground(x, 0.0, z)
-    return _blades(root, ground(np.cos(angle), 0.0, np.sin(angle)) * width / 2, root + ground(0.35 * lean_x, 0.6 * tall, 0.35 * lean_z),
-                   root + ground(lean_x, tall, lean_z), rng)
+    side = ground(np.cos(angle), 0.0, np.sin(angle)) * width / 2
+    bend = ground(0.35 * lean_x, 0.6 * tall, 0.35 * lean_z)
+    return _blades(root, side, root + bend, root + ground(lean_x, tall, lean_z), rng)
 
 
 def hair(rng):

@@ -33,6 +33,11 @@ def turn_about_y(angle):
     return np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
 
 
+def direction(azimuth, elevation):
+    """Unit vector, elevation above the plane y = 0; angles in radians."""
+    return np.array([np.cos(azimuth) * np.cos(elevation), np.sin(elevation), np.sin(azimuth) * np.cos(elevation)])
+
+
 def any_turn(rng):
     q, _ = np.linalg.qr(rng.normal(size=(3, 3)))
     return q * np.sign(np.linalg.det(q))
@@ -168,7 +173,8 @@ def stacked_boxes(rng):
     for _ in range(rng.integers(2, 6)):
         half = rng.uniform(0.1, 0.35)
         size = np.diag([width * rng.uniform(0.6, 1), half, width * rng.uniform(0.5, 1)])
-        parts.append(box().moved(turn_about_y(rng.uniform(0, 6.3)) @ size, [rng.normal(0, 0.06), height + half, rng.normal(0, 0.06)]))
+        center = [rng.normal(0, 0.06), height + half, rng.normal(0, 0.06)]
+        parts.append(box().moved(turn_about_y(rng.uniform(0, 6.3)) @ size, center))
         height, width = height + 2 * half, width * rng.uniform(0.75, 1)
     return joined(parts).moved(np.eye(3), [0, -height / 2, 0])
 

@@ -92,7 +92,8 @@ def text(rng):
     """A page of letters: an albedo that no filter may smear."""
     from PIL import Image, ImageDraw, ImageFont
     size, dark = int(rng.choice([9, 14, 22, 40])), rng.random() < 0.3
-    paper, ink = [tuple(int(v) for v in rng.integers(*limits, 3)) for limits in (((20, 70), (180, 255)) if dark else ((190, 255), (0, 90)))]
+    some_gray = lambda low, high: tuple(int(v) for v in rng.integers(low, high, 3))
+    paper, ink = (some_gray(20, 70), some_gray(180, 255)) if dark else (some_gray(190, 255), some_gray(0, 90))
     page = Image.new("RGB", (SIZE, SIZE), paper)
     draw, font = ImageDraw.Draw(page), ImageFont.load_default(size=size)
     for y in range(2, SIZE, int(size * 1.15)):
@@ -154,7 +155,7 @@ def _photos():
     """Photos that scikit-image installs (free to use, see its data/README.txt), linear."""
     import skimage
     from PIL import Image
-    names = ("astronaut", "chelsea", "coffee", "rocket", "hubble_deep_field", "brick", "grass", "gravel", "camera", "motorcycle_left")
+    names = ("astronaut", "chelsea", "coffee", "rocket", "brick", "grass", "gravel", "camera", "motorcycle_left")
     files = [f for f in sorted(Path(skimage.__file__).parent.joinpath("data").glob("*.*g")) if f.stem in names]
     return [(np.asarray(Image.open(f).convert("RGB").resize((SIZE, SIZE))) / 255.0) ** 2.2 for f in files]
 
@@ -163,8 +164,8 @@ def photo(rng):
     return _photos()[rng.integers(len(_photos()))]
 
 
-PATTERNS = (checker, wood, stripes, colored_noise, leaf, gravel, bricks, text, dots, grid, zigzag, marble, rings, clouds, gradient, mosaic,
-            speckle, photo)
+PATTERNS = (checker, wood, stripes, colored_noise, leaf, gravel, bricks, text, dots, grid, zigzag, marble, rings, clouds, gradient,
+            mosaic, speckle, photo)
 
 
 def constant(color):

@@ -27,9 +27,9 @@ def _propose(rng, layout, placed):
         origin = np.array([rng.uniform(-0.4, 0.4) * x, rng.uniform(0.35, 0.65) * layout.height, distance])
         target = 0.5 * target + [0, 0.2 * layout.height, -0.3 * z]
     else:
-        azimuth, elevation = rng.uniform(0, 2 * np.pi), np.radians(rng.uniform(4, 50) if rng.random() < 0.85 else rng.uniform(50, 80))
-        away = np.array([np.cos(azimuth) * np.cos(elevation), np.sin(elevation), np.sin(azimuth) * np.cos(elevation)])
-        origin = target + rng.uniform(1.6, 6.5) * away
+        from_above = rng.random() < 0.15
+        elevation = np.radians(rng.uniform(50, 80) if from_above else rng.uniform(4, 50))
+        origin = target + rng.uniform(1.6, 6.5) * shapes.direction(rng.uniform(0, 2 * np.pi), elevation)
     up = np.array([rng.normal(0, 0.12), 1, rng.normal(0, 0.12)])
     return View(look_at(origin, target, up), origin, float(rng.uniform(28, 72)))
 

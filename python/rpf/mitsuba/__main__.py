@@ -29,7 +29,7 @@ def _arguments():
     parser.add_argument("scene", help="scene.xml")
     parser.add_argument("-o", "--output", required=True, help="raw sample file, by convention named .rpf")
     parser.add_argument("--spp", type=int, default=0, help="samples a pixel; the scene's number if left out")
-    parser.add_argument("--size", type=_size, help="width and height of the film in pixels, such as 640x360; takes a crop window away")
+    parser.add_argument("--size", type=_size, help="of the film in pixels, such as 640x360; takes a crop window away")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--sensor", type=int, default=0, help="index of the camera")
     parser.add_argument("-D", dest="definitions", type=_definition, action="append", default=[], metavar="NAME=VALUE",
