@@ -43,6 +43,7 @@ class RandomScene:
         self.mode = str(rng.choice(list(views.MODES), p=list(views.MODES.values())))
         stratified = rng.random() < options.stratified_share and self.mode != "object motion"
         self.camera = make_camera(options.size, STRATIFIED if stratified else "independent")
+        self.reference_camera = make_camera(options.size, STRATIFIED)
         self.facts = {"layout": kind, "mode": self.mode, "plain": int(plain), "depth": depth, "stratified": int(stratified), **lit}
         self._choose_view(layout, placed)
 
@@ -60,6 +61,7 @@ class RandomScene:
         elif self.mode == "object motion":
             self.moving = views.move_objects(self.rng, view, placed)
         self.camera.look(view)
+        self.reference_camera.look(view)
         self.facts.update(lens=float(view.aperture), motion=float(np.linalg.norm(view.velocity)) or
                           float(max((np.linalg.norm(velocity) for _, velocity, _ in self.moving), default=0)))
 
@@ -77,9 +79,9 @@ class RandomScene:
         self._judge(acceptance.reference_forecast(samples, options.reference_spp, self._exposure(samples)))
         reference_seed = (self.seed * 64 + 1_000_003) & 0x3FFFFFFF
         if self.moving:
-            reference = motion.render_reference(self.scene, self.camera, moving, options.reference_spp, reference_seed)
+            reference = motion.render_reference(self.scene, self.reference_camera, moving, options.reference_spp, reference_seed)
         else:
-            reference = render_reference(self.scene, options.reference_spp, reference_seed, self.camera)
+            reference = render_reference(self.scene, options.reference_spp, reference_seed, self.reference_camera)
         noise = acceptance.noise(samples.mean(), samples.counts[0], *reference, self._exposure(samples))
         self._judge(acceptance.noise_fault(noise))
         samples.metadata |= {f"scene:{k}": v for k, v in {**self.facts, **noise}.items()}
