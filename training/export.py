@@ -26,6 +26,20 @@ def write(network, path, name, note):
             layer_values(layer).astype("<f2").tofile(file)
 
 
+def read(path):
+    """The network of such a file."""
+    with open(path, "rb") as file:
+        header = json.loads(file.readline())
+        values = torch.from_numpy(np.frombuffer(file.read(), "<f2").astype(np.float32))
+    network = Network(header["channels"], header["sample_features"])
+    for layer in network.layers.values():
+        outputs, inputs, width, _ = layer.weight.shape
+        weights, bias, values = values.split([layer.weight.numel(), outputs, len(values) - layer.weight.numel() - outputs])
+        layer.weight.data = weights.reshape(width, width, inputs, outputs).permute(3, 2, 0, 1).contiguous()
+        layer.bias.data = bias.clone()
+    return network
+
+
 def network_of(state):
     """The network of a checkpoint, with the averaged weights."""
     network = Network(state["channels"], state["sample_features"])
