@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "frame.h"
-#include "plan.h"
+#include "frame/frame.h"
+#include "plan/plan.h"
 #include "rpf/rpf.h"
 
 namespace rpf::measure {

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <chrono>
 
+#include "after/polish.h"
+#include "after/resolve.h"
+#include "after/spikes.h"
 #include "conformance/comparison.h"
 #include "cpu/cpu_backend.h"
 #include "opencl/opencl_backend.h"
-#include "polish.h"
-#include "resolve.h"
 #include "rpf/filter.h"
 #include "rpf_math.h"
-#include "spikes.h"
 
 namespace rpf {
 namespace {

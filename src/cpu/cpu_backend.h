@@ -4,7 +4,7 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include "backend.h"
+#include "seam/backend.h"
 
 namespace rpf {
 

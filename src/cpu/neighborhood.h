@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cpu/lane_sums.h"
-#include "frame.h"
+#include "frame/frame.h"
 
 namespace rpf {
 

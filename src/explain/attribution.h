@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "frame.h"
+#include "frame/frame.h"
 
 namespace rpf {
 

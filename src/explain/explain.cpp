@@ -2,16 +2,16 @@
 
 #include <fmt/format.h>
 
-#include "driver.h"
+#include "after/resolve.h"
 #include "explain/attribution.h"
 #include "explain/layers.h"
 #include "explain/traced_pixel.h"
-#include "informative.h"
-#include "memory.h"
-#include "progress_meter.h"
-#include "provenance.h"
-#include "resolve.h"
 #include "rpf/error.h"
+#include "run/driver.h"
+#include "run/informative.h"
+#include "run/memory.h"
+#include "run/progress_meter.h"
+#include "run/provenance.h"
 
 namespace rpf {
 namespace {

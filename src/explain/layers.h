@@ -1,9 +1,9 @@
 // The layers of an explanation: named channels of one image.
 #pragma once
 
-#include "backend.h"
 #include "explain/attribution.h"
 #include "rpf/explain.h"
+#include "seam/backend.h"
 
 namespace rpf {
 

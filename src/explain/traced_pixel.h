@@ -1,9 +1,9 @@
 // One pixel's trace in the words of the public header.
 #pragma once
 
-#include "frame.h"
+#include "frame/frame.h"
 #include "rpf/explain.h"
-#include "trace.h"
+#include "seam/trace.h"
 
 namespace rpf {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "frame.h"
+#include "frame/frame.h"
 #include "opencl/session.h"
 #include "pass.h"
 

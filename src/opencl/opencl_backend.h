@@ -1,10 +1,10 @@
 // The OpenCL backend: the kernels of kernels/filter.cl or kernels/box.cl, band by band. The same bits as the reference.
 #pragma once
 
-#include "backend.h"
 #include "opencl/band.h"
 #include "opencl/scratch.h"
 #include "opencl/session.h"
+#include "seam/backend.h"
 
 namespace rpf {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "driver.h"
+#include "run/driver.h"
 
 namespace rpf::test {
 

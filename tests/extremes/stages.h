@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "frame.h"
+#include "frame/frame.h"
 #include "rpf/samples.h"
 #include "rpf/settings.h"
-#include "trace.h"
+#include "seam/trace.h"
 
 namespace rpf::test {
 

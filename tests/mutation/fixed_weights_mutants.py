@@ -1,7 +1,7 @@
 """Mutants of the methods with fixed weights (algorithm.md, section 8), of the reference and of the OpenCL kernel."""
 from mutants import ELEMENTWISE, PREPARE, Mutant
 
-BOX, BOX_KERNEL, FIXED_WEIGHTS = "src/cpu/box.cpp", "kernels/box.cl", "src/fixed_weights.cpp"
+BOX, BOX_KERNEL, FIXED_WEIGHTS = "src/cpu/box.cpp", "kernels/box.cl", "src/plan/fixed_weights.cpp"
 
 MUTANTS = [
     Mutant("box_row", BOX, "frame.height - 1); ++row", "frame.height - 2); ++row", "oracle gaussian neighbors", "box: without the last row"),

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 NUMERIC, ELEMENTWISE, MATH = "kernels/numeric.h", "kernels/elementwise.h", "kernels/rpf_math.h"
 NEIGHBORHOOD, STATISTICS = "src/cpu/neighborhood.cpp", "src/cpu/statistics.cpp"
 WEIGHTING, BACKEND = "src/cpu/weighting.cpp", "src/cpu/cpu_backend.cpp"
-PLAN, TABLES, CLEAN = "src/plan.cpp", "src/tables.cpp", "src/clean.cpp"
-PREPARE, DRIVER, RESOLVE = "src/prepare.cpp", "src/driver.cpp", "src/resolve.cpp"
-MERGE, RAW_READER, HDR_FLIP = "src/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
-SELECTION, SPIKES, POLISH_TILE = "src/selection.cpp", "src/spikes.cpp", "src/polish_tile.cpp"
-INFORMATION, INFORMATIVE = "src/information.cpp", "src/informative.cpp"
+PLAN, TABLES, CLEAN = "src/plan/plan.cpp", "src/plan/tables.cpp", "src/frame/clean.cpp"
+PREPARE, DRIVER, RESOLVE = "src/frame/prepare.cpp", "src/run/driver.cpp", "src/after/resolve.cpp"
+MERGE, RAW_READER, HDR_FLIP = "src/frame/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
+SELECTION, SPIKES, POLISH_TILE = "src/frame/selection.cpp", "src/after/spikes.cpp", "src/after/polish_tile.cpp"
+INFORMATION, INFORMATIVE = "src/run/information.cpp", "src/run/informative.cpp"
 SCENE = "src/scene/"
 BOTH = "Profiles/BothProfiles."
 
@@ -315,7 +315,7 @@ MUTANTS = [
            "oracle neighbors_factor neighbors", "neighbors factor: tested after half a portion"),
     Mutant("spikes_not_carried_on", DRIVER, "if (plan_.spread_spikes)", "if (pass > 0 && plan_.spread_spikes)",
            "oracle spikes start", "spikes: not spread after the first pass"),
-    Mutant("spikes_near", "src/spikes.h", "spike_spread = 2", "spike_spread = 1",
+    Mutant("spikes_near", "src/after/spikes.h", "spike_spread = 2", "spike_spread = 1",
            "oracle spikes_varying image", "spikes: shared with the 3x3 pixels around them"),
     Mutant("spikes_left_out", DRIVER, "if (plan_.spread_spikes)", "if (false)",
            "Filter.StepsChangeTheImageOfTheTestFrame", "spikes: not spread"),
@@ -337,7 +337,7 @@ MUTANTS = [
            "Polish.IsItsDefinition", "polish: noise of a guide counts as an edge"),
     Mutant("polish_empty_pixels", POLISH_TILE, "* valid[x];", "* (valid[x] + 1.0F);",
            "Polish.LeavesOutEmptyPixels", "polish: pixels without samples are averaged"),
-    Mutant("polish_floor", "src/polish.cpp", "count += 3;", "count += 1;",
+    Mutant("polish_floor", "src/after/polish.cpp", "count += 3;", "count += 1;",
            "Polish.HasAFloorOfAPartOfTheMeanRadiance", "polish: another floor"),
 
     # ---------------------------------------------------------------- files: merging and raw samples

@@ -7,9 +7,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>  // test data between C++ and Python
 
-#include "driver.h"
 #include "rpf/rpf.h"
 #include "rpf_math.h"
+#include "run/driver.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // The polish by hand, and against its definition in double precision.
-#include "polish.h"
+#include "after/polish.h"
 
 #include <gtest/gtest.h>
 

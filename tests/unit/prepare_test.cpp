@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "frame.h"
+#include "frame/frame.h"
 #include "test_frames.h"
 
 namespace rpf {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "frame.h"
+#include "frame/frame.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
 

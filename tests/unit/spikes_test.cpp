@@ -1,11 +1,11 @@
 // Spreading spikes, on small frames by hand.
-#include "spikes.h"
+#include "after/spikes.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "resolve.h"
+#include "after/resolve.h"
 #include "rpf/filter.h"
 #include "test_frames.h"
 #include "tolerances.h"

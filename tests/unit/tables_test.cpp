@@ -1,4 +1,4 @@
-#include "tables.h"
+#include "plan/tables.h"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "frame.h"
+#include "frame/frame.h"
 #include "pass.h"
-#include "plan.h"
-#include "trace.h"
+#include "plan/plan.h"
+#include "seam/trace.h"
 
 namespace rpf {
 

@@ -1,4 +1,4 @@
-#include "provenance.h"
+#include "run/provenance.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "polish_tile.h"
+#include "after/polish_tile.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "information.h"
+#include "run/information.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include <numeric>
 #include <random>
 
-#include "backend.h"
 #include "rpf_math.h"
+#include "seam/backend.h"
 
 namespace rpf {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "plan/tables.h"
 #include "rpf/filter.h"
 #include "rpf/settings.h"
-#include "tables.h"
 
 namespace rpf {
 

@@ -1,4 +1,4 @@
-#include "progress_meter.h"
+#include "run/progress_meter.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "fixed_weights.h"
+#include "plan/fixed_weights.h"
 
 #include <algorithm>
 #include <cmath>

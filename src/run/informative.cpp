@@ -1,10 +1,10 @@
-#include "informative.h"
+#include "run/informative.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "information.h"
+#include "run/information.h"
 
 namespace rpf {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "backend.h"
 #include "rpf/filter.h"
+#include "seam/backend.h"
 
 namespace rpf {
 

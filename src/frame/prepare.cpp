@@ -8,9 +8,9 @@
 #include <limits>
 #include <utility>
 
-#include "clean.h"
-#include "fixed_weights.h"
-#include "frame.h"
+#include "frame/clean.h"
+#include "frame/frame.h"
+#include "plan/fixed_weights.h"
 #include "rpf/error.h"
 
 namespace rpf {

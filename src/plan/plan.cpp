@@ -1,4 +1,4 @@
-#include "plan.h"
+#include "plan/plan.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "fixed_weights.h"
-#include "polish.h"
+#include "after/polish.h"
+#include "after/spikes.h"
+#include "plan/fixed_weights.h"
 #include "rpf/error.h"
-#include "spikes.h"
 #include "trace_layout.h"
 
 namespace rpf {

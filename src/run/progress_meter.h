@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "plan.h"
+#include "plan/plan.h"
 #include "rpf/filter.h"
 
 namespace rpf {

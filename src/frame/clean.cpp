@@ -1,4 +1,4 @@
-#include "clean.h"
+#include "frame/clean.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // filter of a plan. All are one filter: a Gaussian of the distance in a space of film position, color and features.
 #pragma once
 
-#include "frame.h"
+#include "frame/frame.h"
 
 namespace rpf {
 

@@ -1,4 +1,4 @@
-#include "resolve.h"
+#include "after/resolve.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "polish.h"
+#include "after/polish.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "polish_tile.h"
+#include "after/polish_tile.h"
 
 namespace rpf {
 namespace {

@@ -1,16 +1,16 @@
-#include "driver.h"
+#include "run/driver.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "informative.h"
-#include "memory.h"
-#include "polish.h"
-#include "progress_meter.h"
-#include "provenance.h"
-#include "resolve.h"
+#include "after/polish.h"
+#include "after/resolve.h"
+#include "after/spikes.h"
 #include "rpf/error.h"
-#include "spikes.h"
+#include "run/informative.h"
+#include "run/memory.h"
+#include "run/progress_meter.h"
+#include "run/provenance.h"
 
 namespace rpf {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "frame.h"
+#include "frame/frame.h"
 
 namespace rpf {
 

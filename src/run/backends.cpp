@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "backend.h"
 #include "cpu/cpu_backend.h"
 #include "opencl/opencl_backend.h"
 #include "rpf/error.h"
+#include "seam/backend.h"
 
 namespace rpf {
 namespace {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "frame.h"
+#include "frame/frame.h"
 
 namespace rpf {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "polish.h"
+#include "after/polish.h"
 
 namespace rpf {
 

@@ -1,8 +1,8 @@
-#include "spikes.h"
+#include "after/spikes.h"
 
 #include <algorithm>
 
-#include "resolve.h"
+#include "after/resolve.h"
 
 namespace rpf {
 namespace {

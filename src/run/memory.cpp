@@ -1,17 +1,17 @@
-#include "memory.h"
+#include "run/memory.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "backend.h"
-#include "frame.h"
-#include "polish.h"
+#include "after/polish.h"
+#include "after/spikes.h"
+#include "frame/frame.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
 #include "rpf/io.h"
-#include "spikes.h"
+#include "seam/backend.h"
 
 namespace rpf {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "frame.h"
+#include "frame/frame.h"
 
 namespace rpf {
 
