@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "frame/frame.h"
+#include "frame/prepare.h"
 #include "plan/plan.h"
 #include "rpf/rpf.h"
 

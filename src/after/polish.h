@@ -5,13 +5,9 @@
 #include <vector>
 
 #include "frame/frame.h"
+#include "plan/plan.h"
 
 namespace rpf {
-
-/// Pixels to each side that a pixel is averaged with, and that patches reach around each of them.
-constexpr int polish_radius = 3, polish_patch = 1;
-/// Pixels to each side that a polished pixel depends on.
-constexpr int polish_reach = polish_radius + polish_patch;
 
 /// What polish() needs to know beside frame and plan.
 struct PolishOptions {

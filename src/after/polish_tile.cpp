@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "plan/regions.h"
 #include "rpf_math.h"
 
 namespace rpf {

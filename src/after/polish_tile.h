@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "after/polish.h"
+#include "plan/regions.h"
 
 namespace rpf {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "after/resolve.h"
+#include "plan/regions.h"
 
 namespace rpf {
 namespace {

@@ -7,15 +7,10 @@
 
 namespace rpf {
 
-/// Pixels to each side that get a share of a spike's excess.
-constexpr int spike_spread = 2;
-/// Pixels to each side that what this step does to a pixel depends on: the neighbors of a spike that far away.
-constexpr int spike_reach = spike_spread + 1;
-
 /// A pixel brighter (R + G + B) than each of its 8 neighbors is a spike: its samples are multiplied so that it becomes
 /// as bright as the brightest of them, at least 0, and what it loses is added in equal shares to all pixels of the
-/// square around it, itself included. All spikes are found before any is spread. Energy, the sum of the pixels, is kept
-/// and pixels without samples take no part. Section 7 does the same to the samples inside a pixel.
+/// square around it (spike_spread), itself included. All spikes are found before any is spread. Energy, the sum of the
+/// pixels, is kept and pixels without samples take no part. Section 7 does the same to the samples inside a pixel.
 /// Changes R, G and B of `colors`, [sample][carried].
 void spread_spikes(const Frame& frame, std::size_t carried, std::vector<float>& colors);
 

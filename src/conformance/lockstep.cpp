@@ -10,6 +10,7 @@
 #include "after/spikes.h"
 #include "conformance/comparison.h"
 #include "cpu/cpu_backend.h"
+#include "frame/prepare.h"
 #include "opencl/opencl_backend.h"
 #include "rpf/filter.h"
 #include "rpf_math.h"

@@ -6,6 +6,7 @@
 
 #include "cpu/lane_sums.h"
 #include "frame/frame.h"
+#include "plan/plan.h"
 
 namespace rpf {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frame/frame.h"
+#include "frame/variables.h"
 
 namespace rpf {
 

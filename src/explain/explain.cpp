@@ -6,12 +6,17 @@
 #include "explain/attribution.h"
 #include "explain/layers.h"
 #include "explain/traced_pixel.h"
+#include "frame/selection.h"
+#include "plan/validate.h"
 #include "rpf/error.h"
+#include "run/backends.h"
 #include "run/driver.h"
 #include "run/informative.h"
 #include "run/memory.h"
 #include "run/progress_meter.h"
 #include "run/provenance.h"
+#include "run/threads.h"
+#include "run/tiles.h"
 
 namespace rpf {
 namespace {

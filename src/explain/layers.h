@@ -2,6 +2,7 @@
 #pragma once
 
 #include "explain/attribution.h"
+#include "frame/prepare.h"
 #include "rpf/explain.h"
 #include "seam/backend.h"
 

@@ -1,7 +1,8 @@
 // One pixel's trace in the words of the public header.
 #pragma once
 
-#include "frame/frame.h"
+#include "frame/prepare.h"
+#include "plan/plan.h"
 #include "rpf/explain.h"
 #include "seam/trace.h"
 

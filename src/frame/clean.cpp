@@ -10,8 +10,6 @@
 namespace rpf {
 namespace {
 
-constexpr float missing = std::numeric_limits<float>::quiet_NaN();
-
 /// Larger feature values count as missing: their squares would not survive a sum, and renderers write such values for
 /// "no hit". Nor would sums of larger weights or alphas.
 constexpr float largest_value = 1e15F;

@@ -1,6 +1,7 @@
 // What cannot be used is left out or marked as missing before anything is computed (algorithm.md, section 1).
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "rpf/samples.h"
 
 namespace rpf {
+
+/// What stands in the place of a value that is missing.
+constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
 /// Where the slots that preparing a frame needs stand in a record.
 struct Columns {

@@ -9,14 +9,13 @@
 #include <utility>
 
 #include "frame/clean.h"
-#include "frame/frame.h"
-#include "plan/fixed_weights.h"
+#include "frame/feature_spread.h"
+#include "frame/prepare.h"
+#include "frame/selection.h"
 #include "rpf/error.h"
 
 namespace rpf {
 namespace {
-
-constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
 /// The brightest value of the frame is brought to [2^40, 2^41): squares and sums of millions of them stay finite, and
 /// values 2^-166 times as bright are still normal numbers.
@@ -207,7 +206,7 @@ PreparedFrame prepare(SampleBuffer samples, const Settings& settings) {
   result.facts.crop = wanted_region(samples.data_window, settings.crop);
   result.notes = clean(samples, columns, settings.clamp_negative);
   if (settings.method != Method::rpf) center_missing_positions(samples, columns);
-  result.radiance_scale = result.facts.radiance_scale = radiance_scale(samples, columns);
+  result.facts.radiance_scale = radiance_scale(samples, columns);
   result.facts.position_diagonal = position_diagonal(samples, columns);
 
   std::vector<Source> variables;
@@ -225,9 +224,9 @@ PreparedFrame prepare(SampleBuffer samples, const Settings& settings) {
   frame.height = result.facts.height = samples.data_window.height;
   frame.variables = variables.size();
   result.facts.carried = carried.size();
-  result.colors = carried_values(samples, carried, result.radiance_scale);
+  result.colors = carried_values(samples, carried, result.facts.radiance_scale);
   frame.weights = sample_weights(samples, columns);
-  frame.records = repack(samples, variables, result.radiance_scale);
+  frame.records = repack(samples, variables, result.facts.radiance_scale);
   frame.has_missing = std::any_of(frame.records.begin(), frame.records.end(), [](float x) { return std::isnan(x); });
   frame.first_sample = std::move(samples.first_sample);
   result.facts.max_samples_per_pixel = most_samples(frame.first_sample);

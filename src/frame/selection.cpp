@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "frame/frame.h"
+#include "frame/selection.h"
+#include "frame/variables.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
 

@@ -7,6 +7,7 @@
 #include "frame/frame.h"
 #include "opencl/session.h"
 #include "pass.h"
+#include "plan/plan.h"
 
 namespace rpf {
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "opencl/trace_reader.h"
+#include "plan/box.h"
 
 namespace rpf {
 namespace {
@@ -65,7 +66,7 @@ std::vector<float> scales_of(const PassPlan& pass) {
   return scales;
 }
 
-int reach_of(const PassPlan& pass) { return (pass.box_width - 1) / 2; }
+int reach_of(const PassPlan& pass) { return box_reach(pass.box_width); }
 
 /// The rows that a pass reads for a tile: also for pixels above it that measure for its first ones.
 Rows rows_read(const Plan& plan, int pass, const Window& tile) {

@@ -1,6 +1,8 @@
 // The OpenCL backend: the kernels of kernels/filter.cl or kernels/box.cl, band by band. The same bits as the reference.
 #pragma once
 
+#include <memory>
+
 #include "opencl/band.h"
 #include "opencl/scratch.h"
 #include "opencl/session.h"

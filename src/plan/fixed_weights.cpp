@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "plan/box.h"
+
 namespace rpf {
 namespace {
 
@@ -18,26 +20,6 @@ float scale_of(double sigma) {
   return scale < smallest_scale ? 0.0F : static_cast<float>(scale);
 }
 
-/// Mean and variance of one variable over all samples that have it.
-struct Moments {
-  double mean = 0, variance = 0;
-};
-
-Moments moments_of(const Frame& frame, std::size_t variable) {
-  double sum = 0, squares = 0, count = 0;
-  for (std::size_t i = 0; i < frame.sample_count(); ++i) {
-    if (std::isnan(frame.record(i)[variable])) continue;
-    sum += frame.record(i)[variable];
-    ++count;
-  }
-  const double mean = sum / std::max(count, 1.0);
-  for (std::size_t i = 0; i < frame.sample_count(); ++i) {
-    const double off = frame.record(i)[variable] - mean;
-    if (!std::isnan(off)) squares += off * off;
-  }
-  return {mean, squares / std::max(count, 1.0)};
-}
-
 /// Most samples of the pixels in a box that lies in the frame.
 std::uint32_t largest_box(const FrameFacts& facts, int box_width) {
   const auto side = [&](int length) { return static_cast<std::uint64_t>(std::min(box_width, std::max(length, 1))); };
@@ -46,20 +28,6 @@ std::uint32_t largest_box(const FrameFacts& facts, int box_width) {
 }
 
 }  // namespace
-
-std::vector<FeatureSpread> spread_of_features(const Frame& frame, const Variables& variables) {
-  const std::vector<std::string>& names = variables.feature_names;
-  std::vector<Moments> moments;
-  for (std::size_t k = 0; k < names.size(); ++k) moments.push_back(moments_of(frame, variables.features() + k));
-  std::vector<FeatureSpread> spread;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    double variance = 0;
-    for (std::size_t other = 0; other < names.size(); ++other)
-      if (group_of_variable(names[other]) == group_of_variable(names[k])) variance += moments[other].variance;
-    spread.push_back({static_cast<float>(moments[k].mean), std::sqrt(variance)});
-  }
-  return spread;
-}
 
 std::vector<float> centers_of(const FrameFacts& facts, const Settings& settings) {
   if (settings.method == Method::rpf) return {};
@@ -74,7 +42,7 @@ void plan_fixed_weights(const FrameFacts& facts, const Settings& settings, PassP
     const float scale = scale_of(sigma);
     if (scale > 0) pass.coordinates.push_back({static_cast<std::uint32_t>(variable), scale});
   };
-  for (std::size_t axis = 0; axis < 2; ++axis) add(Variables::position + axis, pass.box_width / 4.0);
+  for (std::size_t axis = 0; axis < 2; ++axis) add(Variables::position + axis, box_sigma(pass.box_width));
   for (std::size_t c = 0; c < 3 && settings.method != Method::gaussian; ++c)
     add(Variables::color + c, static_cast<double>(settings.sigma_color) * facts.radiance_scale);
   for (std::size_t k = 0; k < facts.feature_spread.size(); ++k)

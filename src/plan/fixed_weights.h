@@ -2,12 +2,9 @@
 // filter of a plan. All are one filter: a Gaussian of the distance in a space of film position, color and features.
 #pragma once
 
-#include "frame/frame.h"
+#include "plan/plan.h"
 
 namespace rpf {
-
-/// Means and deviations of the features, missing values left out.
-std::vector<FeatureSpread> spread_of_features(const Frame& frame, const Variables& variables);
 
 /// Plan::centers: the mean of a feature, 0 for color and position; empty for rpf.
 std::vector<float> centers_of(const FrameFacts& facts, const Settings& settings);

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "after/polish.h"
-#include "after/spikes.h"
 #include "plan/fixed_weights.h"
+#include "plan/regions.h"
+#include "plan/validate.h"
 #include "rpf/error.h"
 #include "trace_layout.h"
 
@@ -21,10 +21,6 @@ constexpr double ln2 = 0.69314718055994530942;
 constexpr float position_rejection_factor = 30.0F;
 constexpr float feature_rejection_factor = 3.0F;
 constexpr float least_tolerance = 0.1F;
-
-void require(bool holds, const std::string& message) {
-  if (!holds) throw Error(ErrorKind::usage, message);
-}
 
 void plan_rejection(Plan& plan, const FrameFacts& facts, const Settings& settings) {
   const float position_tolerance = least_tolerance * facts.position_diagonal / settings.position_scale;
@@ -59,85 +55,11 @@ PassPlan plan_pass(const FrameFacts& facts, const Settings& settings, std::size_
   return result;
 }
 
-Window grown(const Window& window, int margin, int width, int height) {
-  const int x0 = std::max(window.x - margin, 0), x1 = std::min(window.x + window.width + margin, width);
-  const int y0 = std::max(window.y - margin, 0), y1 = std::min(window.y + window.height + margin, height);
-  return {x0, y0, x1 - x0, y1 - y0};
-}
-
-/// The last pass filters the crop and what polishing it reads; each pass before it also what the next one reads around
-/// its own region; all of them what the steps after them read.
-void plan_regions(Plan& plan, const Window& crop) {
-  const int after_pass = plan.spread_spikes ? spike_reach : 0;
-  plan.polished = crop;
-  Window needed = grown(crop, plan.polish > 0 ? polish_reach : 0, plan.width, plan.height);
-  for (auto pass = plan.passes.rbegin(); pass != plan.passes.rend(); ++pass) {
-    pass->region = grown(needed, after_pass, plan.width, plan.height);
-    needed = pass->region;
-    needed = grown(needed, (pass->box_width - 1) / 2, plan.width, plan.height);
-  }
-}
-
 }  // namespace
 
 std::size_t pair_count(const Variables& v) {
   return kernel::rpf_pairs(static_cast<kernel::uint>(v.random_names.size()),
                            static_cast<kernel::uint>(v.feature_names.size()));
-}
-
-std::string group_of_variable(const std::string& name) { return name.substr(0, name.find('.')); }
-
-bool is_world_position(const std::string& group) { return group == "P" || group == "P2"; }
-
-bool is_second_hit(const std::string& group) { return !group.empty() && group.back() == '2'; }
-
-std::uint32_t NeighborhoodSize::size(std::uint32_t samples) const {
-  const std::uint64_t wanted = grows_with_samples ? std::uint64_t{box_area} * samples / 2 : fixed;
-  return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, limit));
-}
-
-std::uint32_t NeighborhoodSize::draws(std::uint32_t samples) const {
-  return std::max(size(samples), samples) - samples;
-}
-
-NeighborhoodSize neighborhood_size(const Settings& settings, int box_width) {
-  NeighborhoodSize result;
-  result.box_area = static_cast<std::uint32_t>(box_width * box_width);
-  result.grows_with_samples = settings.profile == Profile::paper && !settings.samples_factor;
-  const double fixed = settings.samples_factor.value_or(0.5) * result.box_area;
-  result.fixed = static_cast<std::uint32_t>(std::min<double>(std::floor(fixed), most_neighbors));
-  if (settings.max_samples > 0) result.limit = std::min(settings.max_samples, most_neighbors);
-  return result;
-}
-
-void validate(const Settings& s) {
-  for (const int b : s.box_widths)
-    require(b >= 1 && b <= 255 && b % 2 == 1,
-            fmt::format("box width {}: an odd number of pixels from 1 to 255 is expected", b));
-  require(s.box_widths.size() <= 100, fmt::format("{} passes: at most 100 are possible", s.box_widths.size()));
-  require(!s.samples_factor || (*s.samples_factor > 0 && *s.samples_factor <= 1e6),
-          fmt::format("samples factor {}: a number above 0 and up to 1e6 is expected", s.samples_factor.value_or(0)));
-  require(
-      !s.neighbors_factor || (*s.neighbors_factor > 0 && *s.neighbors_factor <= 1e6),
-      fmt::format("neighbors factor {}: a number above 0 and up to 1e6 is expected", s.neighbors_factor.value_or(0)));
-  require(s.statistics_block >= 1 && s.statistics_block <= 16,
-          fmt::format("statistics block {}: a width from 1 to 16 pixels is expected", s.statistics_block));
-  require(s.noise >= 1e-12F && s.noise <= 1e12F,
-          fmt::format("noise {}: a number from 1e-12 to 1e12 is expected, such as 0.02", s.noise));
-  require(s.bins >= 3 && s.bins <= 31 && s.bins % 2 == 1,
-          fmt::format("bins {}: an odd number from 3 to 31 is expected", s.bins));
-  require(s.alpha_factor >= 0 && s.alpha_factor <= 1e6F,
-          fmt::format("alpha factor {}: a number from 0 to 1e6 is expected", s.alpha_factor));
-  require(s.position_scale >= 1e-6F && s.position_scale <= 1e6F,
-          fmt::format("position scale {}: a number from 1e-6 to 1e6 is expected", s.position_scale));
-  require(s.redraws >= 0 && s.redraws <= 15, fmt::format("redraws {}: a number from 0 to 15 is expected", s.redraws));
-  require(s.sigma_color >= 1e-30F && s.sigma_color <= 1e30F,
-          fmt::format("sigma color {}: a radiance from 1e-30 to 1e30 is expected, such as 30", s.sigma_color));
-  require(s.sigma_feature >= 1e-6F && s.sigma_feature <= 1e6F,
-          fmt::format("sigma feature {}: a number from 1e-6 to 1e6 is expected, such as 0.5", s.sigma_feature));
-  require(s.polish == 0 || (s.polish >= 1e-3F && s.polish <= 10),
-          fmt::format("polish {}: 0 or a number from 0.001 to 10 is expected, such as 0.15", s.polish));
-  require(s.threads >= 0, fmt::format("threads {}: a positive number is expected, or 0 for all cores", s.threads));
 }
 
 Plan make_plan(const FrameFacts& facts, const Settings& settings) {

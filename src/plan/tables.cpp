@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plan/box.h"
+
 namespace rpf {
 namespace {
 
@@ -11,8 +13,8 @@ constexpr int finest_units_per_bit = 1 << 24;
 
 /// Entries of the table that each offset 0 .. reach gets on either side. What rounding leaves over goes to offset 0.
 std::vector<int> entries_per_offset(int box_width) {
-  const int reach = (box_width - 1) / 2;
-  const double sigma = box_width / 4.0;
+  const int reach = box_reach(box_width);
+  const double sigma = box_sigma(box_width);
   std::vector<double> density(static_cast<std::size_t>(reach) + 1);
   double total = 0;
   for (int d = 0; d <= reach; ++d) {

@@ -1,10 +1,13 @@
+#include "run/backends.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "cpu/cpu_backend.h"
 #include "opencl/opencl_backend.h"
 #include "rpf/error.h"
-#include "seam/backend.h"
+#include "rpf/filter.h"
+#include "run/threads.h"
 
 namespace rpf {
 namespace {
@@ -33,7 +36,5 @@ std::unique_ptr<Backend> make_backend(const Settings& settings) {
   throw Error(ErrorKind::usage, fmt::format("backend '{}' is not known; this build has: {}", settings.backend,
                                             fmt::join(backend_names(), ", ")));
 }
-
-int thread_count(const Settings& settings) { return settings.threads > 0 ? settings.threads : available_threads(); }
 
 }  // namespace rpf

@@ -6,11 +6,15 @@
 #include "after/polish.h"
 #include "after/resolve.h"
 #include "after/spikes.h"
+#include "plan/validate.h"
 #include "rpf/error.h"
+#include "run/backends.h"
 #include "run/informative.h"
 #include "run/memory.h"
 #include "run/progress_meter.h"
 #include "run/provenance.h"
+#include "run/threads.h"
+#include "run/tiles.h"
 
 namespace rpf {
 namespace {
@@ -28,24 +32,6 @@ double energy(const Pixels& pixels, const FrameFacts& facts) {
   return sum;
 }
 
-/// Cuts a region into tiles of about `pixels` pixels: bands of whole rows, or parts of a row. Inside the region blocks
-/// of pixels that share statistics stay whole, for a part of one costs as much as all of it.
-std::vector<Window> cut(const Window& region, std::size_t pixels, int block) {
-  const auto whole_blocks = [&](std::size_t length) {
-    return static_cast<int>(std::max<std::size_t>(length / static_cast<std::size_t>(block), 1)) * block;
-  };
-  std::vector<Window> tiles;
-  const int end_x = region.x + region.width, end_y = region.y + region.height;
-  const int width = whole_blocks(std::min<std::size_t>(pixels / block, region.width + block));
-  const int height = whole_blocks(pixels / std::min(width, region.width));
-  for (int y = region.y / block * block; y < end_y; y += height)
-    for (int x = region.x / block * block; x < end_x; x += width) {
-      const int left = std::max(x, region.x), top = std::max(y, region.y);
-      tiles.push_back({left, top, std::min(x + width, end_x) - left, std::min(y + height, end_y) - top});
-    }
-  return tiles;
-}
-
 /// Copies some of the carried channels of the crop into an image, undoing the radiance scale for the color.
 Image image_of(const Pixels& pixels, const PreparedFrame& prepared, const Image& geometry, std::size_t first,
                std::size_t last) {
@@ -58,7 +44,7 @@ Image image_of(const Pixels& pixels, const PreparedFrame& prepared, const Image&
     for (int x = facts.crop.x; x < facts.crop.x + facts.crop.width; ++x)
       for (std::size_t c = first; c < last; ++c) {
         const float value = pixels[(static_cast<std::size_t>(y) * facts.width + x) * facts.carried + c];
-        image.pixels.push_back(c < 3 ? value / prepared.radiance_scale : value);
+        image.pixels.push_back(c < 3 ? value / prepared.facts.radiance_scale : value);
       }
   return image;
 }
@@ -175,12 +161,6 @@ void describe_input(const Backend& backend, const Plan& plan, const PreparedFram
   report.dropped = prepared.dropped;
   report.uninformative = prepared.uninformative;
   report.notes = prepared.notes;
-}
-
-std::vector<Window> cut_into_tiles(const Plan& plan, int pass, const Control& control, int threads) {
-  const PassPlan& p = plan.passes[static_cast<std::size_t>(pass)];
-  const std::size_t pixels = control.tile_pixels > 0 ? control.tile_pixels : tile_pixels(p, threads);
-  return cut(p.region, pixels, plan.statistics_block);
 }
 
 Result run_filter(SampleBuffer samples, const Settings& settings, const Control& control,

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "frame/prepare.h"
 #include "rpf/filter.h"
 #include "seam/backend.h"
 
@@ -14,9 +15,6 @@ using PassObserver = std::function<void(Backend&, const Plan&, int pass)>;
 /// filter() of the public header, with an observer.
 Result run_filter(SampleBuffer samples, const Settings& settings, const Control& control,
                   const PassObserver& before_pass);
-
-/// The tiles of a pass, in their order.
-std::vector<Window> cut_into_tiles(const Plan& plan, int pass, const Control& control, int threads);
 
 /// What a report says beside the passes: backend, modeled channels, notes about the input.
 void describe_input(const Backend& backend, const Plan& plan, const PreparedFrame& prepared, Report& report);

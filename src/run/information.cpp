@@ -9,6 +9,7 @@
 #include <random>
 
 #include "rpf_math.h"
+#include "run/backends.h"
 #include "seam/backend.h"
 
 namespace rpf {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "frame/frame.h"
+#include "frame/prepare.h"
 
 namespace rpf {
 

@@ -1,7 +1,7 @@
 // "Model only what a scene requires": leaves out channels that are not constant and yet say nothing.
 #pragma once
 
-#include "frame/frame.h"
+#include "frame/prepare.h"
 
 namespace rpf {
 

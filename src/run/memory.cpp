@@ -7,10 +7,13 @@
 
 #include "after/polish.h"
 #include "after/spikes.h"
-#include "frame/frame.h"
+#include "frame/prepare.h"
+#include "frame/selection.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
 #include "rpf/io.h"
+#include "run/backends.h"
+#include "run/threads.h"
 #include "seam/backend.h"
 
 namespace rpf {

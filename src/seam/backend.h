@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,13 +43,5 @@ class Backend {
   /// All intermediate values of one pixel, from the state before end_pass(). Changes nothing.
   virtual PixelTrace trace(int pass, std::uint32_t pixel) = 0;
 };
-
-/// Creates the backend that Settings::backend and Settings::device ask for; "auto" is OpenCL where a device passes the
-/// self-test, else the reference, whose description then says why. Throws Error(usage) for an unknown name,
-/// Error(device) where it cannot work.
-std::unique_ptr<Backend> make_backend(const Settings& settings);
-
-/// The threads that the settings stand for: all cores of the affinity mask where they do not say.
-int thread_count(const Settings& settings);
 
 }  // namespace rpf

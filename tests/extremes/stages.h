@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "frame/frame.h"
+#include "plan/plan.h"
 #include "rpf/samples.h"
 #include "rpf/settings.h"
 #include "seam/trace.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "frame/frame.h"
+#include "frame/prepare.h"
 #include "test_frames.h"
 
 namespace rpf {
@@ -56,7 +56,7 @@ TEST(RadianceScale, IsThePowerOfTwoThatBringsTheBrightestTo2To40) {
     SampleBuffer samples = test::defocused_edge({2, 2, 1, 1});
     for (const char* slot : {"R", "G", "B"}) test::fill(samples, slot, 0);
     value_of(samples, 3, "G") = -brightest;
-    const float scale = prepare(samples, {}).radiance_scale;
+    const float scale = prepare(samples, {}).facts.radiance_scale;
     int exponent = 0;
     EXPECT_EQ(std::frexp(scale, &exponent), 0.5F) << "not a power of two: " << scale;
     if (brightest > 1e-25F) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "frame/frame.h"
+#include "frame/selection.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
 
