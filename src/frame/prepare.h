@@ -28,7 +28,7 @@ struct PreparedFrame {
 std::uint32_t most_samples(const std::vector<std::uint32_t>& first_sample);
 
 /// Leaves out unusable samples, marks missing values, drops constant channels, scales the radiance and repacks the
-/// records in place (algorithm.md, section 1; docs/architecture.md, "Preparing a frame").
+/// records in place (algorithm.md, section 1; docs/architecture.md, "One run").
 PreparedFrame prepare(SampleBuffer samples, const Settings& settings);
 
 }  // namespace rpf

@@ -120,6 +120,14 @@ def sources():
                 yield file
 
 
+def check_docs():
+    """What a document calls a place in src is one: a folder, or a file without its ending."""
+    for document in sorted((PROJECT / "docs").glob("*.md")):
+        for name in re.findall(r"`(src/[\w./]+)`", document.read_text()):
+            if not any((PROJECT / f"{name}{ending}").exists() for ending in ("", ".h", ".cpp")):
+                failures.append(f"docs/{document.name}: there is no {name}")
+
+
 def check_readme():
     """The README's C++ is examples/filter_file.cpp, which the build compiles."""
     readme = (PROJECT / "README.md").read_text()
@@ -141,6 +149,7 @@ def main():
             check_include(file, name)
     check_arrows()
     check_folders()
+    check_docs()
     check_readme()
     print("\n".join(failures) or "all arrows point downwards")
     return 1 if failures else 0

@@ -6,8 +6,8 @@ import tempfile
 from pathlib import Path
 
 PROJECT = Path(sys.argv[1])
-COPIED = ("CMakeLists.txt", "README.md", "bench", "examples", "include", "kernels", "src", "tests")
-LEFT_OUT = shutil.ignore_patterns("corpus", "*.exr", "__pycache__")
+COPIED = ("CMakeLists.txt", "README.md", "bench", "docs", "examples", "include", "kernels", "src", "tests")
+LEFT_OUT = shutil.ignore_patterns("corpus", "*.exr", "*.jpg", "*.png", "__pycache__")
 
 # What is appended to which file (made where it is missing), and what must then be said.
 BROKEN = (
@@ -21,6 +21,7 @@ BROKEN = (
     ("src/run/driver.cpp", "void f() { std::exit(1); }\n", "src/run/driver.cpp has std::exit"),
     ("src/loose.cpp", "\n", "src/loose.cpp: src holds rooms only"),
     ("src/attic/old.cpp", "\n", "src/attic: src holds rooms only"),
+    ("docs/architecture.md", "`src/attic/old`\n", "docs/architecture.md: there is no src/attic/old"),
     ("tests/unit/attic/old_test.cpp", "\n", "tests/unit/attic: the folders of unit tests are named as rooms"),
     ("tests/unit/old_test.cpp", "\n", "tests/unit/old_test.cpp: unit tests lie in the folder of a room"),
 )
