@@ -22,6 +22,11 @@ struct SampleLayout {
   std::optional<std::size_t> find(const std::string& slot) const;
 };
 
+/// Metadata that mean something beyond their name (docs/file-format.md): what marks a sample file, and its version; the
+/// seed that a frame was rendered with, and those of the frames it was merged of.
+constexpr const char *format_attribute = "rpf:format", *version_attribute = "rpf:version";
+constexpr const char *seed_attribute = "rpf:seed", *seeds_attribute = "rpf:seeds";
+
 /// True for the slots of random parameters: random.<group>[.<component>].
 bool is_random_slot(const std::string& slot);
 /// True for the slots of modeled features: feature.<group>[.<component>], without the mask feature.hit.

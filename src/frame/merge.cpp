@@ -13,9 +13,6 @@
 namespace rpf {
 namespace {
 
-constexpr const char* seed_attribute = "rpf:seed";
-constexpr const char* seeds_attribute = "rpf:seeds";
-
 [[noreturn]] void reject(const std::string& message) { throw Error(ErrorKind::input, message); }
 
 /// The slots of `a` that `b` does not have.

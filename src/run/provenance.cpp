@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "rpf/methods.h"
+#include "rpf/samples.h"
 #include "rpf/version.h"
 
 namespace rpf {
@@ -54,8 +55,8 @@ void describe_fixed_weights(const Settings& settings, Metadata& m) {
 
 Metadata provenance(Metadata input, const Settings& settings, const Report& report) {
   Metadata m = std::move(input);
-  m.erase("rpf:format");
-  m.erase("rpf:version");
+  m.erase(format_attribute);
+  m.erase(version_attribute);
   m["rpf:software"] = std::string("rpf ") + version();
   m["rpf:backend"] = report.backend;
   m["rpf:method"] = name_of(settings.method);
