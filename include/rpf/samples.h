@@ -34,6 +34,9 @@ bool is_feature_slot(const std::string& slot);
 /// "lens" of "random.lens.U", "N" of "feature.N.X"; empty for the slots that have no group.
 std::string group_of(const std::string& slot);
 
+/// The most samples that a buffer, and a file, can hold: their numbers are 32 bits.
+constexpr std::uint64_t most_samples_of_frame = 0xFFFFFFFEU;
+
 /// All samples of a frame. A missing value is NaN.
 /// Invariants (checked by validate()): first_sample has pixel_count() + 1 entries, starts at 0 and does not decrease;
 /// values has sample_count() * layout.size() entries; R, G, B, film.X and film.Y are in the layout; no slot twice.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <utility>
 
 #include "rpf/error.h"
@@ -105,9 +104,9 @@ void check_parts(std::vector<SamplePart>& parts) {
     reorder(part.samples, parts.front().samples.layout);
     total += part.samples.sample_count();
   }
-  if (total >= std::numeric_limits<std::uint32_t>::max())
+  if (total > most_samples_of_frame)
     reject(fmt::format("\"{}\" and the others hold {} samples, more than the {} that one buffer takes; merge fewer",
-                       parts.front().name, total, std::numeric_limits<std::uint32_t>::max() - 1));
+                       parts.front().name, total, most_samples_of_frame));
   for (std::size_t b = 1; b < parts.size(); ++b)
     for (std::size_t a = 0; a < b; ++a) check_repetition(parts[a], parts[b]);
 }
