@@ -33,6 +33,10 @@ class OpenClBackend : public Backend {
   const std::vector<float>& explained() const override { return explained_; }
   std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const override;
   PixelTrace trace(int pass, std::uint32_t pixel) override;
+  void load_estimate(const Frame& frame, std::vector<float> colors, const EstimatePlan& plan) override;
+  std::vector<float> estimate(const Window& region, const EstimateProgress& progress) override;
+  std::vector<EstimateStage> trace_estimate(const Window& region) override;
+  std::uint64_t estimate_bytes(const EstimatePlan& plan, const Window& window, std::uint64_t samples) const override;
 
  private:
   /// What stays on the device for a pass: the plan's tables, or the coordinates of fixed weights.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frame/frame.h"
+#include "learned/estimate_plan.h"
 #include "pass.h"
 #include "plan/plan.h"
 #include "seam/trace.h"
@@ -42,6 +43,17 @@ class Backend {
   virtual std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const = 0;
   /// All intermediate values of one pixel, from the state before end_pass(). Changes nothing.
   virtual PixelTrace trace(int pass, std::uint32_t pixel) = 0;
+
+  // The learned estimator, in place of all of the above.
+
+  /// Called once, before anything else. Frame and plan outlive the backend; `colors`: [sample][carried].
+  virtual void load_estimate(const Frame& frame, std::vector<float> colors, const EstimatePlan& plan) = 0;
+  /// The result of a region (frame coordinates): [pixel of the region, row by row][carried], scaled radiance.
+  virtual std::vector<float> estimate(const Window& region, const EstimateProgress& progress) = 0;
+  /// All stages of the same.
+  virtual std::vector<EstimateStage> trace_estimate(const Window& region) = 0;
+  /// Peak bytes of the backend's own memory in estimate(), of a window (window_around()) with so many samples.
+  virtual std::uint64_t estimate_bytes(const EstimatePlan& plan, const Window& window, std::uint64_t samples) const = 0;
 };
 
 }  // namespace rpf

@@ -14,10 +14,11 @@ ROOMS = {
     # what was rendered; what will be done about it; what a backend is asked
     "src/frame": "",
     "src/plan": "src/frame kernels",
-    "src/seam": "src/frame src/plan kernels",
+    "src/learned": "src/frame kernels",  # the estimator of docs/network.md: its networks, what it is shown
+    "src/seam": "src/frame src/plan src/learned kernels",
     # those who do it; what follows a pass; the run
-    "src/cpu": "src/frame src/plan src/seam kernels",
-    "src/opencl": "src/frame src/plan src/seam kernels",
+    "src/cpu": "src/frame src/plan src/learned src/seam kernels",
+    "src/opencl": "src/frame src/plan src/learned src/seam kernels",
     "src/after": "src/frame src/plan kernels",
     "src/run": "src/frame src/plan src/seam src/cpu src/opencl src/after kernels",
     "src/explain": "src/frame src/plan src/seam src/after src/run kernels",
