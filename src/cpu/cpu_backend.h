@@ -35,6 +35,9 @@ class CpuBackend : public Backend {
   struct Workspace;
 
  private:
+  /// [pixel of the window][carried]
+  std::vector<float> estimate_window(const Window& window, const EstimateProgress& progress,
+                                     std::vector<EstimateStage>* stages);
   /// Filters the pixels of a block that lie in the tile.
   void filter_block(int pass, const Window& block, const Window& tile, Workspace& w);
   /// explained() of a pixel of the tile, from what filtering it left in the workspace.
@@ -46,6 +49,7 @@ class CpuBackend : public Backend {
   tbb::task_arena arena_;
   const Frame* frame_ = nullptr;
   const Plan* plan_ = nullptr;
+  const EstimatePlan* estimate_plan_ = nullptr;
   std::vector<float> colors_, next_colors_;  ///< c' and c'': [sample][carried]
   std::vector<PixelStatistics> statistics_;  ///< [pixel]
   std::vector<float> explained_;             ///< [pixel of the tile][pairs + 1]

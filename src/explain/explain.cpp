@@ -101,7 +101,7 @@ class Run {
 
   void describe(Explanation& result, const std::vector<RandomGroup>& groups, const ProgressMeter& meter) {
     for (const RandomGroup& group : groups) result.groups.push_back(group.name);
-    describe_input(*backend_, plan_, prepared_, result.report);
+    describe_input(*backend_, prepared_, result.report);
     result.report.passes.push_back(summarize(backend_->statistics(), prepared_.frame, plan_.passes[0]));
     result.report.seconds = meter.seconds();
     geometry_.metadata = provenance(geometry_.metadata, settings_, result.report);

@@ -100,6 +100,20 @@ void keep_varying(const SampleBuffer& samples, const std::vector<std::string>& s
   }
 }
 
+/// The selected slots and the mask of hits, whether they vary or not: the learned estimator finds that out itself.
+void keep_all(const SampleLayout& layout, const Selection& selection, std::vector<Source>& sources, Variables& names) {
+  const auto keep = [&](const std::string& slot, std::vector<std::string>& into) {
+    sources.push_back(source_of(layout, slot));
+    into.push_back(short_name(slot));
+  };
+  for (const std::string& slot : selection.random) keep(slot, names.random_names);
+  for (const std::string& slot : selection.features) keep(slot, names.feature_names);
+  if (const auto hit = layout.find("feature.hit")) {
+    sources.push_back({Source::plain, *hit, 0});
+    names.feature_names.emplace_back("hit");
+  }
+}
+
 /// What is averaged beside the color: alpha where the file has it, all features where they are wanted.
 std::vector<Source> carried_sources(const SampleLayout& layout, const Columns& columns, const Settings& settings,
                                     std::vector<std::string>& names) {
@@ -215,8 +229,12 @@ PreparedFrame prepare(SampleBuffer samples, const Settings& settings) {
   // with magnitudes.
   variables.push_back({Source::plain, columns.film[0], static_cast<float>(samples.data_window.x)});
   variables.push_back({Source::plain, columns.film[1], static_cast<float>(samples.data_window.y)});
-  keep_varying(samples, selection.random, variables, result.facts.variables.random_names, result.dropped);
-  keep_varying(samples, selection.features, variables, result.facts.variables.feature_names, result.dropped);
+  if (settings.method == Method::learned) {
+    keep_all(samples.layout, selection, variables, result.facts.variables);
+  } else {
+    keep_varying(samples, selection.random, variables, result.facts.variables.random_names, result.dropped);
+    keep_varying(samples, selection.features, variables, result.facts.variables.feature_names, result.dropped);
+  }
   const auto carried = carried_sources(samples.layout, columns, settings, result.carried_names);
 
   Frame& frame = result.frame;

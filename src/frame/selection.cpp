@@ -76,6 +76,25 @@ std::vector<std::string> select_random(const std::vector<std::string>& slots, co
   return selected;
 }
 
+/// Groups that the learned estimator has inputs for (docs/network.md).
+const Groups learned_random = {"lens", "time", "light", "bsdf"}, learned_features = {"N", "albedo", "P", "N2", "P2"};
+
+/// The groups that were asked for, or all that are there and known.
+std::vector<std::string> select_known(const std::vector<std::string>& slots,
+                                      const std::optional<std::vector<std::string>>& asked, const Groups& known,
+                                      const char* kind) {
+  Groups wanted = without_first_hit_word(asked.value_or(Groups{all_groups}), slots);
+  for (const std::string& name : wanted)
+    if (name != all_groups && name != inside_pixel && contains(groups_of(slots), name) && !contains(known, name))
+      throw Error(ErrorKind::usage, fmt::format("{} '{}' is none that the learned estimator looks at; those are: {}",
+                                                kind, name, fmt::join(known, ", ")));
+  std::vector<std::string> picked = pick(slots, wanted, kind);
+  picked.erase(std::remove_if(picked.begin(), picked.end(),
+                              [&](const std::string& slot) { return !contains(known, group_of(slot)); }),
+               picked.end());
+  return picked;
+}
+
 }  // namespace
 
 Selection select_channels(const SampleLayout& layout, const Settings& settings) {
@@ -83,6 +102,9 @@ Selection select_channels(const SampleLayout& layout, const Settings& settings) 
   const auto random = slots_where(layout, is_random_slot);
   const auto features = slots_where(layout, is_feature_slot);
   Selection selection;
+  if (settings.method == Method::learned)
+    return {select_known(random, settings.random, learned_random, "random parameter"),
+            select_known(features, settings.features, learned_features, "feature")};
   if (settings.method == Method::rpf) selection.random = select_random(random, settings);
   if (contains(settings.features.value_or(Groups{}), inside_pixel))
     throw Error(ErrorKind::usage,

@@ -17,12 +17,13 @@ struct NamedMethod {
 constexpr NamedMethod all_methods[] = {{"rpf", Method::rpf},
                                        {"gaussian", Method::gaussian},
                                        {"bilateral", Method::bilateral},
-                                       {"cross-bilateral", Method::cross_bilateral}};
+                                       {"cross-bilateral", Method::cross_bilateral},
+                                       {"learned", Method::learned}};
 
 Settings settings_of(Method method) {
   Settings s;
   s.method = method;
-  if (method == Method::rpf) return s;
+  if (method == Method::rpf || method == Method::learned) return s;
   s.box_widths = {method == Method::cross_bilateral ? 9 : 5};
   s.features = std::vector<std::string>{"first"};
   return s;

@@ -15,53 +15,24 @@ namespace {
 /// pixel.
 constexpr int trial_width = 128, trial_height = 72;
 
-/// What all presets share: the steps beyond the paper gain more than any setting of its own, and features of the second
-/// hit cost time and energy.
-Settings common_settings() {
-  Settings s;
-  s.profile = Profile::paper;
-  s.features = std::vector<std::string>{"first"};
-  s.box_widths = {11, 5};
-  s.noise = 0.005F;
-  s.spread_spikes = true;
-  s.polish = 0.15F;
-  return s;
-}
-
-Settings fast_settings() {
-  Settings s = common_settings();
-  s.samples_factor = 1;
-  s.statistics_block = 4;
-  s.polish = 0.2F;
-  return s;
-}
-
-Settings balanced_settings() {
-  Settings s = common_settings();
-  s.samples_factor = 4;
-  return s;
-}
-
-Settings high_settings() {
-  Settings s = common_settings();
-  s.box_widths = {15, 5};
-  s.samples_factor = 16;
-  s.neighbors_factor = 4;
-  s.noise = 0.003F;
-  return s;
-}
-
 struct Preset {
   const char* name;
   const char* purpose;
-  Settings (*settings)();
 };
 
+/// Each is the network of its name.
 constexpr Preset all_presets[] = {
-    {"fast", "previews and long sequences: M = b^2, and blocks of 4x4 pixels share their statistics", fast_settings},
-    {"balanced", "most work: M = 4 b^2, and every pixel measures for itself", balanced_settings},
-    {"high", "final frames: wider, and pixels that reject nearly everything draw up to 16 b^2 samples", high_settings},
+    {"fast", "previews and long sequences: the smallest network"},
+    {"balanced", "most work"},
+    {"high", "final frames: the largest network"},
 };
+
+Settings settings_of(const Preset& preset) {
+  Settings settings;
+  settings.method = Method::learned;
+  settings.model = preset.name;
+  return settings;
+}
 
 /// The middle of a frame, at most trial_width x trial_height pixels.
 SampleBuffer middle_of(const SampleBuffer& samples) {
@@ -95,7 +66,7 @@ double seconds_of(const SampleBuffer& samples, const Settings& settings, const C
 
 /// The preset, run as `settings` say.
 Settings run_as(const Settings& settings, const Preset& preset) {
-  Settings result = preset.settings();
+  Settings result = settings_of(preset);
   result.backend = settings.backend;
   result.device = settings.device;
   result.threads = settings.threads;
@@ -115,7 +86,7 @@ std::vector<PresetInfo> presets() {
 Settings preset_settings(const std::string& name) {
   std::vector<std::string> names;
   for (const Preset& preset : all_presets) {
-    if (name == preset.name) return preset.settings();
+    if (name == preset.name) return settings_of(preset);
     names.emplace_back(preset.name);
   }
   throw Error(ErrorKind::usage, fmt::format("preset '{}': one of {} is expected", name, fmt::join(names, ", ")));

@@ -6,9 +6,12 @@
 #include "after/polish.h"
 #include "after/resolve.h"
 #include "after/spikes.h"
+#include "learned/network_file.h"
+#include "learned/observe.h"
 #include "plan/validate.h"
 #include "rpf/error.h"
 #include "run/backends.h"
+#include "run/estimate_bands.h"
 #include "run/informative.h"
 #include "run/memory.h"
 #include "run/progress_meter.h"
@@ -67,12 +70,27 @@ class Run {
     geometry_.metadata = samples.metadata;
     check_memory(samples, settings);
     backend_ = make_backend(settings);
+    const FrameSize size = frame_size(samples);
+    const std::size_t room = room_of(samples);
+    const SampleLayout layout = samples.layout;
     prepared_ = prepare(std::move(samples), settings);
+    if (settings.method == Method::learned) {
+      estimate_plan_ = observe(prepared_, find_network(settings.model));
+      band_rows_ = estimate_bands(size, layout, room, settings, *backend_).rows;
+      return;
+    }
     if (settings.method == Method::rpf && settings.drop_uninformative) drop_uninformative(prepared_, settings);
     plan_ = make_plan(prepared_.facts, settings);
   }
 
   Result finish(const PassObserver& before_pass) {
+    return settings_.method == Method::learned ? estimate() : run_passes(before_pass);
+  }
+
+ private:
+  Pixels resolved() const { return resolve(prepared_.frame, backend_->colors(), plan_.carried); }
+
+  Result run_passes(const PassObserver& before_pass) {
     ProgressMeter meter(plan_, control_);
     Result result;
     backend_->load(prepared_.frame, std::move(prepared_.colors), plan_);
@@ -93,8 +111,39 @@ class Run {
     return result;
   }
 
- private:
-  Pixels resolved() const { return resolve(prepared_.frame, backend_->colors(), plan_.carried); }
+  /// The learned estimator, band by band where memory is limited: a band has the pixels of the whole.
+  Result estimate() {
+    ProgressMeter meter(control_);
+    const FrameFacts& facts = prepared_.facts;
+    const double plain_energy = energy(resolve(prepared_.frame, prepared_.colors, facts.carried), facts);
+    backend_->load_estimate(prepared_.frame, std::move(prepared_.colors), estimate_plan_);
+    Pixels pixels(prepared_.frame.first_sample.size() * facts.carried, 0.0F);
+    const Window& crop = facts.crop;
+    for (int y = crop.y; y < crop.y + crop.height; y += band_rows_) {
+      const Window band{crop.x, y, crop.width, std::min(band_rows_, crop.y + crop.height - y)};
+      const double share = static_cast<double>(band.height) / crop.height;
+      place(backend_->estimate(band, [&](double part) { meter.add_part(share * part); }), band, pixels);
+    }
+    Result result;
+    PassReport report;
+    const double kept = energy(pixels, facts);
+    report.energy = kept == plain_energy ? 1 : kept / plain_energy;
+    report.seconds = result.report.seconds = meter.seconds();
+    result.report.passes.push_back(report);
+    result.report.model = estimate_plan_.network->name;
+    result.report.model_hash = estimate_plan_.network->hash;
+    describe(result, pixels);
+    return result;
+  }
+
+  void place(const std::vector<float>& part, const Window& band, Pixels& pixels) const {
+    const std::size_t row = static_cast<std::size_t>(band.width) * prepared_.facts.carried;
+    for (int y = 0; y < band.height; ++y)
+      std::copy_n(part.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * row), row,
+                  pixels.begin() + static_cast<std::ptrdiff_t>(
+                                       (static_cast<std::size_t>(band.y + y) * prepared_.facts.width + band.x) *
+                                       prepared_.facts.carried));
+  }
 
   PassReport run_pass(int pass, ProgressMeter& meter) {
     const PassPlan& plan = plan_.passes[static_cast<std::size_t>(pass)];
@@ -112,7 +161,7 @@ class Run {
   }
 
   void describe(Result& result, const Pixels& pixels) {
-    describe_input(*backend_, plan_, prepared_, result.report);
+    describe_input(*backend_, prepared_, result.report);
     geometry_.metadata = provenance(geometry_.metadata, settings_, result.report);
     const std::size_t colors = color_channels(prepared_);
     result.image = image_of(pixels, prepared_, geometry_, 0, colors);
@@ -126,6 +175,8 @@ class Run {
   Image geometry_;  ///< windows and metadata of the result
   PreparedFrame prepared_;
   Plan plan_;
+  EstimatePlan estimate_plan_;
+  int band_rows_ = 1;                 ///< of a learned estimate
   std::unique_ptr<Backend> backend_;  ///< last: it refers to frame and plan
 };
 
@@ -154,10 +205,10 @@ PassReport summarize(const std::vector<PixelStatistics>& statistics, const Frame
   return report;
 }
 
-void describe_input(const Backend& backend, const Plan& plan, const PreparedFrame& prepared, Report& report) {
+void describe_input(const Backend& backend, const PreparedFrame& prepared, Report& report) {
   report.backend = backend.description();
-  report.random = plan.variables.random_names;
-  report.features = plan.variables.feature_names;
+  report.random = prepared.facts.variables.random_names;
+  report.features = prepared.facts.variables.feature_names;
   report.dropped = prepared.dropped;
   report.uninformative = prepared.uninformative;
   report.notes = prepared.notes;

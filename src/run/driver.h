@@ -17,7 +17,7 @@ Result run_filter(SampleBuffer samples, const Settings& settings, const Control&
                   const PassObserver& before_pass);
 
 /// What a report says beside the passes: backend, modeled channels, notes about the input.
-void describe_input(const Backend& backend, const Plan& plan, const PreparedFrame& prepared, Report& report);
+void describe_input(const Backend& backend, const PreparedFrame& prepared, Report& report);
 
 /// Means in a fixed order over the pixels, so that the report too does not depend on threads or tiles. Energy and
 /// seconds are the caller's.

@@ -13,6 +13,7 @@
 #include "rpf/filter.h"
 #include "rpf/io.h"
 #include "run/backends.h"
+#include "run/estimate_bands.h"
 #include "run/threads.h"
 #include "seam/backend.h"
 
@@ -39,16 +40,15 @@ FrameFacts facts_of(const FrameSize& size, const SampleLayout& layout, const Set
   const Selection selection = select_channels(layout, settings);
   facts.variables.random_names = selection.random;
   facts.variables.feature_names = selection.features;
-  facts.carried = layout.find("A") ? 4 : 3;
-  const auto is_feature = [](const std::string& slot) { return is_feature_slot(slot); };
-  if (settings.filter_features)
-    facts.carried += static_cast<std::size_t>(std::count_if(layout.slots.begin(), layout.slots.end(), is_feature));
+  facts.carried = carried_count(layout, settings);
   return facts;
 }
 
 /// `room`: columns that the buffer of values can hold.
 std::uint64_t memory_need(const FrameSize& size, const SampleLayout& layout, std::uint64_t room,
                           const Settings& settings) {
+  if (settings.method == Method::learned)
+    return estimate_bands(size, layout, room, settings, *make_backend(settings)).bytes;
   const FrameFacts facts = facts_of(size, layout, settings);
   Settings without_crop = settings;
   without_crop.crop.reset();
@@ -62,16 +62,29 @@ std::uint64_t memory_need(const FrameSize& size, const SampleLayout& layout, std
 
 }  // namespace
 
+FrameSize frame_size(const SampleBuffer& samples) {
+  return {samples.data_window.pixel_count(), samples.sample_count(), most_samples(samples.first_sample),
+          samples.data_window.width};
+}
+
+std::uint64_t room_of(const SampleBuffer& samples) {
+  return samples.values.capacity() / std::max<std::uint64_t>(samples.sample_count(), 1);
+}
+
+std::size_t carried_count(const SampleLayout& layout, const Settings& settings) {
+  const std::size_t colors = layout.find("A") ? 4 : 3;
+  if (!settings.filter_features) return colors;
+  const auto is_feature = [](const std::string& slot) { return is_feature_slot(slot); };
+  return colors + static_cast<std::size_t>(std::count_if(layout.slots.begin(), layout.slots.end(), is_feature));
+}
+
 std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {
   return memory_need(size, layout, layout.size() + spare_columns, settings);
 }
 
 void check_memory(const SampleBuffer& samples, const Settings& settings, std::uint64_t more) {
   if (settings.max_memory == 0) return;
-  const FrameSize size{samples.data_window.pixel_count(), samples.sample_count(), most_samples(samples.first_sample),
-                       samples.data_window.width};
-  const std::uint64_t room = samples.values.capacity() / std::max<std::uint64_t>(size.samples, 1);
-  const std::uint64_t need = memory_need(size, samples.layout, room, settings) + more;
+  const std::uint64_t need = memory_need(frame_size(samples), samples.layout, room_of(samples), settings) + more;
   constexpr double megabyte = 1 << 20;
   if (need > settings.max_memory)
     throw Error(ErrorKind::memory,

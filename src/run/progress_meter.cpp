@@ -51,6 +51,11 @@ void ProgressMeter::add_polished(std::size_t pixels) {
   tell(passes_ - 1);
 }
 
+void ProgressMeter::add_part(double part) {
+  done_ += part;
+  tell(0);
+}
+
 void ProgressMeter::tell(int pass) {
   if (!control_.progress) return;
   Progress progress;

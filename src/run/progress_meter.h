@@ -14,11 +14,15 @@ std::size_t tile_pixels(const PassPlan& pass, int threads);
 class ProgressMeter {
  public:
   ProgressMeter(const Plan& plan, const Control& control);
+  /// Of a learned estimate.
+  explicit ProgressMeter(const Control& control) : control_(control), passes_(1), total_(1) {}
 
   /// Counts pixels of a pass as done and tells the caller. Throws Error(cancelled) where the caller wants to stop.
   void add(int pass, std::size_t pixels);
   /// The same for the polish.
   void add_polished(std::size_t pixels);
+  /// Counts a part of a learned estimate, which is 1 as a whole.
+  void add_part(double part);
   double seconds() const;
 
  private:

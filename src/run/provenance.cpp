@@ -34,6 +34,8 @@ std::string choices_text(const Settings& s) {
 
 /// What Random Parameter Filtering was told.
 void describe_rpf(const Settings& settings, const Report& report, Metadata& m) {
+  m["rpf:boxes"] = fmt::format("{}", fmt::join(settings.box_widths, ","));
+  m["rpf:steps"] = steps_text(settings);
   m["rpf:profile"] = std::string(settings.profile == Profile::paper ? "paper" : "thesis");
   m["rpf:neighborhood"] = neighborhood_text(settings);
   m["rpf:noise"] = settings.noise;
@@ -44,8 +46,18 @@ void describe_rpf(const Settings& settings, const Report& report, Metadata& m) {
   m["rpf:choices"] = choices_text(settings);
 }
 
+/// Which network it was, and what it was shown.
+void describe_learned(const Settings& settings, const Report& report, Metadata& m) {
+  m["rpf:model"] = report.model;
+  m["rpf:modelHash"] = report.model_hash;
+  m["rpf:random"] = list(report.random);
+  m["rpf:choices"] = fmt::format("clamp-negative={}", settings.clamp_negative);
+}
+
 /// What a method with fixed weights was told.
 void describe_fixed_weights(const Settings& settings, Metadata& m) {
+  m["rpf:boxes"] = fmt::format("{}", fmt::join(settings.box_widths, ","));
+  m["rpf:steps"] = steps_text(settings);
   if (settings.method != Method::gaussian) m["rpf:sigmaColor"] = settings.sigma_color;
   if (settings.method == Method::cross_bilateral) m["rpf:sigmaFeature"] = settings.sigma_feature;
   m["rpf:choices"] = fmt::format("clamp-negative={}", settings.clamp_negative);
@@ -60,13 +72,13 @@ Metadata provenance(Metadata input, const Settings& settings, const Report& repo
   m["rpf:software"] = std::string("rpf ") + version();
   m["rpf:backend"] = report.backend;
   m["rpf:method"] = name_of(settings.method);
-  m["rpf:boxes"] = fmt::format("{}", fmt::join(settings.box_widths, ","));
   m["rpf:features"] = list(report.features);
   if (settings.method == Method::rpf)
     describe_rpf(settings, report, m);
+  else if (settings.method == Method::learned)
+    describe_learned(settings, report, m);
   else
     describe_fixed_weights(settings, m);
-  m["rpf:steps"] = steps_text(settings);
   std::vector<std::string> notes;
   for (const InputNote& note : report.notes)
     notes.push_back(fmt::format("{}: {} (first at pixel {},{})", note.what, note.count, note.x, note.y));

@@ -20,7 +20,7 @@ ROOMS = {
     "src/cpu": "src/frame src/plan src/learned src/seam kernels",
     "src/opencl": "src/frame src/plan src/learned src/seam kernels",
     "src/after": "src/frame src/plan kernels",
-    "src/run": "src/frame src/plan src/seam src/cpu src/opencl src/after kernels",
+    "src/run": "src/frame src/plan src/learned src/seam src/cpu src/opencl src/after kernels",
     "src/explain": "src/frame src/plan src/seam src/after src/run kernels",
     "src/conformance": "src/frame src/seam src/cpu src/opencl src/after kernels",
     # beside the filter, sharing nothing with it but the public headers
@@ -43,8 +43,8 @@ ROOMS["tests"] = set(ROOMS) - {"src/images", "src/cli", "examples", "bench"}
 LIBRARIES = {
     "OpenEXR/": {"src/io"}, "Imf": {"src/io"}, "libdeflate": {"src/io"}, "OpenImageIO/": {"src/images"}, "CL/": {"src/opencl"}, "CLI/": {"src/cli"},
     "embree3/": {"src/scene"}, "tbb/": {"src/after", "src/cpu", "src/explain", "src/scene"}, "benchmark/": {"bench"},
-    "fmt/": {"src/frame", "src/plan", "src/run", "src/opencl", "src/conformance", "src/explain", "src/io", "src/images", "src/metrics", "src/scene", "src/cli", "src/bench", "src/report", "src/study"},
-    "nlohmann/": {"src/cli", "src/io", "src/conformance", "src/bench", "src/study"},  # what is printed as JSON; the header of raw sample files
+    "fmt/": {"src/frame", "src/plan", "src/learned", "src/run", "src/opencl", "src/conformance", "src/explain", "src/io", "src/images", "src/metrics", "src/scene", "src/cli", "src/bench", "src/report", "src/study"},
+    "nlohmann/": {"src/learned", "src/cli", "src/io", "src/conformance", "src/bench", "src/study"},  # what is printed as JSON; the header of raw sample files
 }
 LONGEST_FILE = 400
 
