@@ -81,20 +81,18 @@ Field Estimate::see_pixels() {
   Field seen(stages_ ? window_.width : 0, stages_ ? window_.height : 0, static_cast<std::size_t>(enter.inputs));
   const double samples = static_cast<double>(first_sample_.back()) / window_.height;
   for_rows_(window_.height, samples * seeing(network_) + window_.width * products(enter), [&](int y) {
-    with_fma([&] {
-      SampleNetwork network(frame_, plan_);
-      std::vector<float> values(static_cast<std::size_t>(enter.inputs));
-      float albedo[RPF_ALBEDO_SUMS];
-      for (int x = 0; x < window_.width; ++x) {
-        network.see_pixel(frame_pixel(x, y), values.data(), albedo);
-        dense(enter, values.data(), 0, enter.outputs, entered.at(x, y));
-        activate(entered.at(x, y), enter.outputs);
-        const float* guides = values.data() + 2 * network_.sample_features + RPF_STATISTIC_GUIDES;
-        for (std::size_t k = 0; k < RPF_GUIDES; ++k) guides_.at(y, k)[x] = guides[k];
-        for (std::size_t k = 0; k < RPF_ALBEDO_SUMS; ++k) albedo_.at(y, k)[x] = albedo[k];
-        if (stages_) std::copy(values.begin(), values.end(), seen.at(x, y));
-      }
-    });
+    SampleNetwork network(frame_, plan_);
+    std::vector<float> values(static_cast<std::size_t>(enter.inputs));
+    float albedo[RPF_ALBEDO_SUMS];
+    for (int x = 0; x < window_.width; ++x) {
+      network.see_pixel(frame_pixel(x, y), values.data(), albedo);
+      dense(enter, values.data(), 0, enter.outputs, entered.at(x, y));
+      activate(entered.at(x, y), enter.outputs);
+      const float* guides = values.data() + 2 * network_.sample_features + RPF_STATISTIC_GUIDES;
+      for (std::size_t k = 0; k < RPF_GUIDES; ++k) guides_.at(y, k)[x] = guides[k];
+      for (std::size_t k = 0; k < RPF_ALBEDO_SUMS; ++k) albedo_.at(y, k)[x] = albedo[k];
+      if (stages_) std::copy(values.begin(), values.end(), seen.at(x, y));
+    }
   });
   keep("pixel", seen);
   keep("enter", entered);
@@ -165,8 +163,8 @@ void Estimate::sum_samples() {
   if (stages_) sample_weights_.resize(first_sample_.back());
   const double samples = static_cast<double>(first_sample_.back()) / window_.height;
   for_rows_(window_.height, samples * weighing(network_), [&](int y) {
+    SampleNetwork network(frame_, plan_);
     with_fma([&] {
-      SampleNetwork network(frame_, plan_);
       for (int x = 0; x < window_.width; ++x) sum_pixel(x, y, network);
     });
   });
@@ -180,17 +178,15 @@ PassWeights Estimate::weights_of(uint pass) {
   PassWeights weights{Rows(window_.width, window_.height, embedding + RPF_GUIDES),
                       Rows(window_.width, window_.height, 1)};
   for_rows_(window_.height, window_.width * 10.0 * embedding, [&](int y) {
-    with_fma([&] {
-      std::vector<float> logits(values);
-      for (int x = 0; x < window_.width; ++x) {
-        head(x, y, first, values, logits.data());
-        for (uint k = 0; k < embedding; ++k) weights.embedding.at(y, k)[x] = kernel::rpf_embedding(logits[k]);
-        weights.own.at(y, 0)[x] = kernel::rpf_own_weight(logits[embedding]);
-        for (uint k = 0; k < RPF_GUIDES; ++k)
-          weights.embedding.at(y, embedding + k)[x] =
-              kernel::rpf_bandwidth(logits[embedding + 1 + k]) * guides_.at(y, k)[x];
-      }
-    });
+    std::vector<float> logits(values);
+    for (int x = 0; x < window_.width; ++x) {
+      head(x, y, first, values, logits.data());
+      for (uint k = 0; k < embedding; ++k) weights.embedding.at(y, k)[x] = kernel::rpf_embedding(logits[k]);
+      weights.own.at(y, 0)[x] = kernel::rpf_own_weight(logits[embedding]);
+      for (uint k = 0; k < RPF_GUIDES; ++k)
+        weights.embedding.at(y, embedding + k)[x] =
+            kernel::rpf_bandwidth(logits[embedding + 1 + k]) * guides_.at(y, k)[x];
+    }
   });
   return weights;
 }

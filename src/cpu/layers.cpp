@@ -24,7 +24,7 @@ inline void accumulate_block(const float* const* x, int inputs, const float* wei
   for (int i = 0; i < inputs; ++i)
 #pragma GCC unroll 4
     for (int c = 0; c < Cells; ++c)
-#pragma GCC unroll 2
+#pragma GCC unroll 4
       for (int b = 0; b < Blocks; ++b) add_products(x[c][i], weights + i * stride + b * lanes, sums[c][b]);
   for (int c = 0; c < Cells; ++c) std::copy_n(&sums[c][0][0], Blocks * lanes, acc[c]);
 }
@@ -40,6 +40,8 @@ inline void accumulate(const float* const* x, int inputs, const float* weights, 
     outputs -= count;
     for (float*& a : at) a += count;
   };
+  if (Cells == 1)
+    for (; outputs >= 4 * lanes; advance(4 * lanes)) accumulate_block<1, 4>(x, inputs, weights, stride, at);
   for (; outputs >= 2 * lanes; advance(2 * lanes)) accumulate_block<Cells, 2>(x, inputs, weights, stride, at);
   for (; outputs >= lanes; advance(lanes)) accumulate_block<Cells, 1>(x, inputs, weights, stride, at);
   for (; outputs > 0; advance(1))
@@ -72,17 +74,10 @@ inline void convolve_cells(const NetworkLayer& layer, const std::vector<Source>&
 }  // namespace
 
 void dense(const NetworkLayer& layer, const float* x, int first, int count, float* out) {
-  std::copy_n(layer.bias.begin() + first, count, out);
-  accumulate<1>(&x, layer.inputs, layer.weights.data() + first, layer.outputs, count, &out);
-}
-
-void dense(const NetworkLayer& layer, const float* x, const std::vector<int>& live, float* out) {
-  std::copy(layer.bias.begin(), layer.bias.end(), out);
-  for (const int i : live) {
-    const float* one = x + i;
-    accumulate<1>(&one, 1, layer.weights.data() + static_cast<std::ptrdiff_t>(i) * layer.outputs, layer.outputs,
-                  layer.outputs, &out);
-  }
+  with_fma([&] {
+    std::copy_n(layer.bias.begin() + first, count, out);
+    accumulate<1>(&x, layer.inputs, layer.weights.data() + first, layer.outputs, count, &out);
+  });
 }
 
 void activate(float* values, int count) {

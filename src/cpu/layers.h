@@ -35,9 +35,6 @@ struct Source {
 /// Outputs first .. first + count - 1 of a dense layer. For out[o] the inputs come in turn: fma(x[i], weight, out[o]).
 void dense(const NetworkLayer& layer, const float* x, int first, int count, float* out);
 
-/// All outputs of a dense layer of which only some inputs are not 0.
-void dense(const NetworkLayer& layer, const float* x, const std::vector<int>& live, float* out);
-
 void activate(float* values, int count);
 
 /// One row of a 3x3 convolution, activated. Coordinates are clamped to the field.

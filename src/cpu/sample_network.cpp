@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cpu/layers.h"
+#include "cpu/fma.h"
 
 namespace rpf {
 namespace {
@@ -15,7 +15,8 @@ constexpr std::size_t color_at = 0, luminance_at = 3, guides_at = 4, base_at = g
 
 }  // namespace
 
-SampleNetwork::SampleNetwork(const Frame& frame, const EstimatePlan& plan) : frame_(frame), plan_(plan) {
+SampleNetwork::SampleNetwork(const Frame& frame, const EstimatePlan& plan)
+    : frame_(frame), plan_(plan), sample1_(with_inputs(plan.network->sample1(), plan.live)), live_(plan.live.size()) {
   const auto features = static_cast<std::size_t>(plan.network->sample_features);
   seen_.features.resize(features);
   seen_.hidden.resize(features);
@@ -44,7 +45,8 @@ void SampleNetwork::fill_inputs(const float* record) {
 const SeenSample& SampleNetwork::see(std::size_t sample) {
   const Network& network = *plan_.network;
   fill_inputs(frame_.record(sample));
-  dense(network.sample1(), seen_.inputs, plan_.live, seen_.hidden.data());
+  for (std::size_t i = 0; i < live_.size(); ++i) live_[i] = seen_.inputs[plan_.live[i]];
+  dense(sample1_, live_.data(), 0, network.sample_features, seen_.hidden.data());
   activate(seen_.hidden.data(), network.sample_features);
   dense(network.sample2(), seen_.hidden.data(), 0, network.sample_features, seen_.features.data());
   activate(seen_.features.data(), network.sample_features);
@@ -87,6 +89,16 @@ void SampleNetwork::fill_pixel_values(float samples, float* values) const {
   statistics[RPF_STATISTIC_SAMPLES] = 1.0F / kernel::sqrt(samples);
 }
 
+void SampleNetwork::add_moments() {
+  with_fma([&] {
+    for (std::size_t k = 0; k < current_.size(); ++k) {
+      const float d = current_[k] - first_[k];
+      sums_[k] += d;
+      squares_[k] = fma(d, d, squares_[k]);
+    }
+  });
+}
+
 void SampleNetwork::see_pixel(std::size_t pixel, float* values, float* albedo) {
   const std::uint32_t begin = frame_.first_sample[pixel], end = frame_.first_sample[pixel + 1];
   std::fill_n(values, kernel::rpf_pixel_values(static_cast<kernel::uint>(seen_.features.size())), 0.0F);
@@ -98,11 +110,7 @@ void SampleNetwork::see_pixel(std::size_t pixel, float* values, float* albedo) {
     see(sample);
     fill_moment_values();
     if (sample == begin) first_ = current_;
-    for (std::size_t k = 0; k < current_.size(); ++k) {
-      const float d = current_[k] - first_[k];
-      sums_[k] += d;
-      squares_[k] = fma(d, d, squares_[k]);
-    }
+    add_moments();
   }
   const auto samples = static_cast<float>(end - begin);
   fill_pixel_values(samples, values);

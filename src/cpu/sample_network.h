@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "cpu/layers.h"
 #include "frame/frame.h"
 #include "learned/estimate_plan.h"
 
@@ -33,12 +34,15 @@ class SampleNetwork {
   void fill_inputs(const float* record);
   /// What moments are taken of: h, c, luminance, the guides, a.
   void fill_moment_values();
+  void add_moments();
   void fill_pixel_values(float samples, float* values) const;
   float mean(std::size_t k, float samples) const;
   float variance(std::size_t k, float samples) const;
 
   const Frame& frame_;
   const EstimatePlan& plan_;
+  NetworkLayer sample1_;     ///< of the inputs that are live
+  std::vector<float> live_;  ///< their values
   SeenSample seen_;
   std::vector<float> current_, first_, sums_, squares_;  ///< of what moments are taken of
   std::vector<float> weighed_;                           ///< [S + RPF_CONTEXT] inputs of weight1

@@ -35,6 +35,15 @@ std::vector<NetworkLayer> layers_of(int sample_features, const std::vector<int>&
   return layers;
 }
 
+NetworkLayer with_inputs(const NetworkLayer& layer, const std::vector<int>& inputs) {
+  NetworkLayer some{layer.name, static_cast<int>(inputs.size()), layer.outputs, layer.taps, {}, layer.bias};
+  for (const int input : inputs) {
+    const auto first = layer.weights.begin() + static_cast<std::ptrdiff_t>(input) * layer.outputs;
+    some.weights.insert(some.weights.end(), first, first + layer.outputs);
+  }
+  return some;
+}
+
 int network_reach(int levels) {
   int passes = 0;
   for (kernel::uint p = 0; p < RPF_COLOR_PASSES; ++p) passes += RPF_PASS_REACH * kernel::rpf_dilation(p);

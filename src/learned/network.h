@@ -45,6 +45,9 @@ struct Network {
 /// The layers of a network of this shape, without weights. Levels, sample features and embedding as in the file.
 std::vector<NetworkLayer> layers_of(int sample_features, const std::vector<int>& channels, int embedding);
 
+/// The layer with some of its inputs only, dense, in this order: what it is where the others are 0.
+NetworkLayer with_inputs(const NetworkLayer& layer, const std::vector<int>& inputs);
+
 /// Pixels each way that a pixel of the result reads at most: passes and convolutions, and what cells aligned to the
 /// frame add.
 int network_reach(int levels);

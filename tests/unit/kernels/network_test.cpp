@@ -27,7 +27,7 @@ TEST(Log, OfOneIsExactlyZeroAndGrowsThroughPowersOfTwo) {
   EXPECT_EQ(rpf_log(1.0F), 0.0F);
   for (int e = -125; e < 127; ++e) {
     const float x = std::ldexp(1.0F, e);
-    EXPECT_LT(rpf_log(std::nextafter(x, 0.0F)), rpf_log(std::nextafter(x, infinity))) << e;
+    EXPECT_LE(rpf_log(std::nextafter(x, 0.0F)), rpf_log(std::nextafter(x, infinity))) << e;
   }
 }
 

@@ -122,6 +122,7 @@ TEST(Inputs, OfAMissedRayAndOfMissingValuesAreZero) {
   for (const std::string& slot : samples.layout.slots)
     if (is_feature_slot(slot) || is_random_slot(slot)) value_of(samples, 3, slot) = missing;
   value_of(samples, 3, "feature.hit") = 0;
+  value_of(samples, 0, "feature.N.Y") = 0.5F;  // of the others 0
   const Observed o = observed(samples);
   for (int input = RPF_INPUT_NORMAL; input < RPF_INPUTS; ++input) {
     if (input == RPF_INPUT_FILM || input == RPF_INPUT_FILM + 1) continue;
