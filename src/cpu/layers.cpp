@@ -15,38 +15,33 @@ inline void add_products(float x, const float* weights, float* sums) {
   for (int o = 0; o < lanes; ++o) sums[o] = kernel::fma(x, weights[o], sums[o]);
 }
 
-/// Blocks * lanes sums of each of some cells at once. Both numbers are known to the compiler, so that all sums stay in
-/// registers.
+/// Blocks * lanes sums, from `first` on, of each of some cells at once. Both numbers are known to the compiler, so that
+/// all sums stay in registers.
 template <int Cells, int Blocks>
-inline void accumulate_block(const float* const* x, int inputs, const float* weights, int stride, float* const* acc) {
+inline void accumulate_block(const float* const* x, int inputs, const float* weights, int stride, int first,
+                             float* const* acc) {
   float sums[Cells][Blocks][lanes];
-  for (int c = 0; c < Cells; ++c) std::copy_n(acc[c], Blocks * lanes, &sums[c][0][0]);
+  for (int c = 0; c < Cells; ++c) std::copy_n(acc[c] + first, Blocks * lanes, &sums[c][0][0]);
   for (int i = 0; i < inputs; ++i)
 #pragma GCC unroll 4
     for (int c = 0; c < Cells; ++c)
 #pragma GCC unroll 4
-      for (int b = 0; b < Blocks; ++b) add_products(x[c][i], weights + i * stride + b * lanes, sums[c][b]);
-  for (int c = 0; c < Cells; ++c) std::copy_n(&sums[c][0][0], Blocks * lanes, acc[c]);
+      for (int b = 0; b < Blocks; ++b) add_products(x[c][i], weights + i * stride + first + b * lanes, sums[c][b]);
+  for (int c = 0; c < Cells; ++c) std::copy_n(&sums[c][0][0], Blocks * lanes, acc[c] + first);
 }
 
 /// acc[c][o] = fma(x[c][i], weights[i][o], acc[c][o]) for every input in turn; `stride`: outputs of the whole layer.
 template <int Cells>
 inline void accumulate(const float* const* x, int inputs, const float* weights, int stride, int outputs,
                        float* const* acc) {
-  float* at[Cells];
-  std::copy_n(acc, Cells, at);
-  const auto advance = [&](int count) {
-    weights += count;
-    outputs -= count;
-    for (float*& a : at) a += count;
-  };
-  if (Cells == 1)
-    for (; outputs >= 4 * lanes; advance(4 * lanes)) accumulate_block<1, 4>(x, inputs, weights, stride, at);
-  for (; outputs >= 2 * lanes; advance(2 * lanes)) accumulate_block<Cells, 2>(x, inputs, weights, stride, at);
-  for (; outputs >= lanes; advance(lanes)) accumulate_block<Cells, 1>(x, inputs, weights, stride, at);
-  for (; outputs > 0; advance(1))
+  constexpr int wide = Cells == 1 ? 4 : 2;  // blocks: as many as registers hold
+  int o = 0;
+  for (; o + wide * lanes <= outputs; o += wide * lanes)
+    accumulate_block<Cells, wide>(x, inputs, weights, stride, o, acc);
+  for (; o + lanes <= outputs; o += lanes) accumulate_block<Cells, 1>(x, inputs, weights, stride, o, acc);
+  for (; o < outputs; ++o)
     for (int c = 0; c < Cells; ++c)
-      for (int i = 0; i < inputs; ++i) *at[c] = kernel::fma(x[c][i], weights[i * stride], *at[c]);
+      for (int i = 0; i < inputs; ++i) acc[c][o] = kernel::fma(x[c][i], weights[i * stride + o], acc[c][o]);
 }
 
 /// Cells x .. x + Cells - 1 of a row.

@@ -105,10 +105,11 @@ std::uint16_t to_half(float value) {
 
 std::string bytes_of_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string bytes(most_bytes + 1, '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
-  if (bytes.size() > most_bytes) refuse(path, fmt::format("larger than {} bytes, which no network is", most_bytes));
+  std::string bytes, part(1 << 16, '\0');
+  while (file.read(part.data(), static_cast<std::streamsize>(part.size())) || file.gcount() > 0) {
+    bytes.append(part, 0, static_cast<std::size_t>(file.gcount()));
+    if (bytes.size() > most_bytes) refuse(path, fmt::format("larger than {} bytes, which no network is", most_bytes));
+  }
   return bytes;
 }
 
