@@ -48,7 +48,7 @@ PositionFacts position_facts(const Frame& frame, const RecordView& view) {
     facts.median[k] = lower_median(std::move(values));
     for (const float* record : there) sum += std::fabs(view.position(record, k) - facts.median[k]);
   }
-  facts.deviation = sum / (3 * static_cast<double>(there.size()));
+  if (sum > 0) facts.deviation = sum / (3 * static_cast<double>(there.size()));
   return facts;
 }
 

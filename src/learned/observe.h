@@ -19,7 +19,7 @@ float exposure_of(const Frame& frame);
 /// Of the positions of the first sample of every pixel that has one.
 struct PositionFacts {
   double median[3] = {};  ///< lower median of each component
-  double deviation = 0;  ///< mean absolute deviation from it, over the components too; 0: all are one, or none is there
+  double deviation = 1;   ///< mean absolute deviation from it, over the components too; 1 where all are one
 };
 
 }  // namespace rpf

@@ -39,6 +39,8 @@ bool is_zero(const float* record, const Three& columns) {
   return std::all_of(columns.begin(), columns.end(), [&](std::size_t c) { return record[c] == 0; });
 }
 
+float or_zero(float value) { return std::isnan(value) ? 0.0F : value; }
+
 /// 2u - 1 of a number in [0, 1); 0 where it is missing.
 float centered(float u) { return std::isnan(u) ? 0.0F : rpf_held(2 * u - 1, -1, 1); }
 
@@ -77,8 +79,7 @@ RecordView::RecordView(const Variables& variables)
 
 bool RecordView::has(int input) const {
   if (input >= RPF_INPUT_LENS) return random_[input].has_value();
-  if (input >= RPF_INPUT_HIT2) return normal2_ || position2_;
-  if (input >= RPF_INPUT_DISTANCE2) return position_ && position2_;
+  if (input == RPF_INPUT_DISTANCE2) return normal2_ && position_ && position2_;
   if (input >= RPF_INPUT_NORMAL2) return normal2_.has_value();
   if (input >= RPF_INPUT_MISS) return hit_ || normal_;
   if (input >= RPF_INPUT_POSITION) return position_.has_value();
@@ -91,8 +92,7 @@ bool RecordView::is_hit(const float* record) const {
 }
 
 bool RecordView::is_second_hit(const float* record) const {
-  const Columns& column = normal2_ ? normal2_ : position2_;
-  return column && is_there(record, *column) && !is_zero(record, *column);
+  return is_hit(record) && is_there(record, *normal2_) && !is_zero(record, *normal2_);
 }
 
 bool RecordView::has_position(const float* record) const {
@@ -106,28 +106,29 @@ bool RecordView::any_hit(const Frame& frame) const {
 }
 
 void RecordView::read_first_hit(const float* record, const PositionFacts& positions, float* inputs) const {
-  const bool has_normal = normal_ && is_there(record, *normal_), is_placed = has_position(record);
+  const bool is_hit_once = is_hit(record);
+  inputs[RPF_INPUT_MISS] = is_hit_once ? 0.0F : 1.0F;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (normal_)
-      inputs[RPF_INPUT_NORMAL + k] = has_normal ? rpf_held(record[(*normal_)[k]], -longest_normal, longest_normal) : 0;
-    if (albedo_) inputs[RPF_INPUT_ALBEDO + k] = rpf_held(record[(*albedo_)[k]], 0, 1);
+    const auto value = [&](const Columns& columns) { return is_hit_once ? or_zero(record[(*columns)[k]]) : 0; };
+    if (normal_) inputs[RPF_INPUT_NORMAL + k] = rpf_held(value(normal_), -longest_normal, longest_normal);
+    if (albedo_) inputs[RPF_INPUT_ALBEDO + k] = rpf_held(value(albedo_), 0, 1);
     if (!position_) continue;
-    const double off = is_placed ? record[(*position_)[k]] - positions.median[k] : 0;
-    const auto p = static_cast<float>(positions.deviation > 0 ? off / positions.deviation : 0);
+    const double off = is_hit_once ? record[(*position_)[k]] - positions.median[k] : 0;
+    const float p = or_zero(static_cast<float>(off / positions.deviation));
     inputs[RPF_INPUT_POSITION + k] = rpf_held(p, -farthest_position, farthest_position);
   }
-  inputs[RPF_INPUT_MISS] = is_hit(record) ? 0.0F : 1.0F;
 }
 
 void RecordView::read_second_hit(const float* record, const PositionFacts& positions, float* inputs) const {
+  if (!normal2_) return;
   const bool is_hit_again = is_second_hit(record);
   inputs[RPF_INPUT_HIT2] = is_hit_again ? 1.0F : 0.0F;
-  for (std::size_t k = 0; normal2_ && k < 3; ++k)
+  for (std::size_t k = 0; k < 3; ++k)
     inputs[RPF_INPUT_NORMAL2 + k] =
         is_hit_again ? rpf_held(record[(*normal2_)[k]], -longest_normal, longest_normal) : 0.0F;
   if (!position_ || !position2_) return;
   inputs[RPF_INPUT_DISTANCE2] = 0;
-  if (!is_hit_again || !has_position(record) || !is_there(record, *position2_) || positions.deviation <= 0) return;
+  if (!is_hit_again || !has_position(record) || !is_there(record, *position2_)) return;
   double square = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const double d = static_cast<double>(record[(*position2_)[k]]) - record[(*position_)[k]];

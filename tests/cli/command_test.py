@@ -130,6 +130,7 @@ class CommandTest(CommandCase):
         self.expect(run(EXAMPLE, "-o", self.output, "--model", junk), 3, "junk.rpfnet", "not a network file")
         self.expect(run(EXAMPLE, "-o", self.output, "--model", "absent"), 2, "'absent'", "balanced, fast, high")
         self.expect(run(EXAMPLE, "-o", self.output, "--model", junk, "--preset", "fast"), 2, "excludes")
+        junk.unlink()
         self.expect_nothing_written()
 
     def test_time_budget_takes_the_best_preset_that_fits(self):
