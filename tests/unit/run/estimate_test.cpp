@@ -161,6 +161,18 @@ TEST_F(EveryMethodEstimate, OfAFrameWithoutSamplesIsBlack) {
   for (const float v : estimate(samples)) EXPECT_EQ(v, 0.0F);
 }
 
+TEST_F(EveryMethodEstimate, OfAPixelAloneIsItsColorWhateverTheNetworkSays) {
+  const TemporaryFolder folder;
+  const SampleBuffer samples = every_input({1, 1, 1, 1});
+  for (const std::uint32_t seed : {1U, 2U, 3U}) {
+    Settings s = settings();
+    s.model = test::write_network(test::random_network({4, {4, 5, 9}, 2, seed, 1e5F}), folder.file("hostile.rpfnet"));
+    const std::vector<float> pixels = estimate(samples, s);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(pixels[c], samples.record(0)[c], test::tolerance::estimated_constant) << "seed " << seed;
+  }
+}
+
 TEST_F(EveryMethodEstimate, TakesThousandsOfSamplesInOnePixel) {
   SampleBuffer samples = every_input({3, 3, 1500, 1});
   for (const float v : estimate(samples)) EXPECT_TRUE(std::isfinite(v) && v > 0);
@@ -170,9 +182,11 @@ TEST_F(EveryMethodEstimate, DoesNotDependOnTheUnitOfTheFilesWeights) {
   SampleBuffer samples = every_input({9, 9, 3, 1});
   test::add_channel(samples, "weight", 1);
   value_of(samples, 5, "weight") = 0.25F;
-  SampleBuffer scaled = samples;
-  for (std::size_t i = 0; i < samples.sample_count(); ++i) value_of(scaled, i, "weight") *= 0x1p40F;
-  EXPECT_EQ(estimate(scaled), estimate(samples));
+  for (const float unit : {0x1p40F, 0x1p-100F}) {
+    SampleBuffer scaled = samples;
+    for (std::size_t i = 0; i < samples.sample_count(); ++i) value_of(scaled, i, "weight") *= unit;
+    EXPECT_EQ(estimate(scaled), estimate(samples)) << unit;
+  }
   SampleBuffer without = samples;
   test::fill(without, "weight", 1);
   EXPECT_NE(estimate(without), estimate(samples));
