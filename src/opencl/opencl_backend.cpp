@@ -81,7 +81,8 @@ OpenClBackend::OpenClBackend(const OpenClOptions& options)
     : session_(Session::of(find_device(options.device))),
       band_bytes_(options.band_bytes),
       phases_(options.phases > 0 ? fmt::format(" -DRPF_PHASES={}", options.phases) : ""),
-      items_(work_items(session_.device(), options.threads)) {}
+      items_(work_items(session_.device(), options.threads)),
+      blocking_(options.blocking) {}
 
 std::string OpenClBackend::description() const {
   return "opencl (" + session_.device().getInfo<CL_DEVICE_NAME>() + ")";

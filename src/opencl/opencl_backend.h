@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "opencl/band.h"
+#include "opencl/network_program.h"
 #include "opencl/scratch.h"
 #include "opencl/session.h"
 #include "seam/backend.h"
@@ -12,9 +14,10 @@ namespace rpf {
 
 /// How a device is used; the defaults are for users, the rest for tests and benchmarks.
 struct OpenClOptions {
-  std::string device;            ///< index or part of a name; empty: the first
-  int threads = 1;               ///< compute units to keep busy, on a device that is a CPU
-  std::uint64_t band_bytes = 0;  ///< most bytes of a band; 0: what the device has
+  std::string device;                     ///< index or part of a name; empty: the first
+  int threads = 1;                        ///< compute units to keep busy, on a device that is a CPU
+  std::uint64_t band_bytes = 0;           ///< most bytes of a band; 0: what the device has
+  std::optional<Blocking> blocking = {};  ///< of the learned estimator's layers; by default what is best for the device
   int phases = 0;  ///< only the first phases of a pixel: draw, gather, prepare, information, weights; 0: all
 };
 
@@ -75,6 +78,9 @@ class OpenClBackend : public Backend {
   std::size_t items_;   ///< work-items that run at once
   const Frame* frame_ = nullptr;
   const Plan* plan_ = nullptr;
+  const EstimatePlan* estimate_plan_ = nullptr;
+  std::optional<Blocking> blocking_;
+  std::unique_ptr<NetworkProgram> network_;
   std::vector<float> colors_, next_colors_;  ///< c' and c'': [sample][carried]
   std::vector<PixelStatistics> statistics_;  ///< [pixel]
   std::vector<float> explained_;             ///< [pixel of the tile][pairs + 1]

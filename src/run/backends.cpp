@@ -17,8 +17,6 @@ std::unique_ptr<Backend> make_opencl(const Settings& settings) {
 }
 
 std::unique_ptr<Backend> make_best(const Settings& settings) {
-  if (settings.method == Method::learned)
-    return std::make_unique<CpuBackend>(thread_count(settings), "no OpenCL kernels of the learned estimator yet");
   try {
     return make_opencl(settings);
   } catch (const Error& e) {
