@@ -3,14 +3,19 @@
 
 #include <benchmark/benchmark.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "frame.h"
-#include "plan.h"
+#include "frame/prepare.h"
+#include "plan/plan.h"
 #include "rpf/rpf.h"
 
 namespace rpf::measure {
+
+/// Of the frame whose phases are measured.
+constexpr int phases_width = 240, phases_height = 135, phases_samples = 4;
+constexpr std::uint32_t frame_records = phases_width * phases_height * phases_samples;
 
 /// The scene dof at 4 samples a pixel, rendered once a size.
 const SampleBuffer& frame_of(int width, int height);

@@ -10,7 +10,6 @@
 namespace rpf::measure {
 namespace {
 
-constexpr int width = 240, height = 135;
 constexpr Window tile{72, 40, 96, 54};  // its middle: most boxes are inside the frame
 
 constexpr double line_bytes = 64;
@@ -24,7 +23,7 @@ struct Pass {
   std::array<std::unique_ptr<OpenClBackend>, phases> backends;  ///< with the phases up to this one
   double pixels = 0, draws = 0, neighbors = 0, weights = 0;
 
-  explicit Pass(const Settings& settings) : frame(frame_of(width, height), settings) {
+  explicit Pass(const Settings& settings) : frame(frame_of(phases_width, phases_height), settings) {
     for (int phase = 0; phase < phases; ++phase) {
       OpenClOptions options;
       options.phases = phase + 1;
@@ -46,7 +45,7 @@ struct Pass {
     backends[information]->run(0, tile);
     for (int y = tile.y; y < tile.y + tile.height; ++y)
       for (int x = tile.x; x < tile.x + tile.width; ++x) {
-        const std::size_t pixel = static_cast<std::size_t>(y) * width + x;
+        const std::size_t pixel = static_cast<std::size_t>(y) * phases_width + x;
         const PixelStatistics& s = backends[information]->statistics()[pixel];
         ++pixels;
         draws += s.drawn;
@@ -81,7 +80,8 @@ void count_phase(benchmark::State& state, const Pass& pass, int phase, double se
     case draw:
       return count(state, "draw", pass.draws, seconds, 0);
     case gather:
-      return count(state, "draw", pass.draws, seconds, at_roof(pass.draws + (lines - 1) * pass.neighbors, roofs.random_records));
+      return count(state, "draw", pass.draws, seconds,
+                   at_roof(pass.draws + (lines - 1) * pass.neighbors, roofs.random_records));
     case prepare:
       return count(state, "neighbor", pass.neighbors, seconds,
                    at_roof(2 * lines * line_bytes * pass.neighbors, roofs.cached_bytes));  // for means, then deviations

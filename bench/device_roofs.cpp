@@ -8,10 +8,9 @@
 namespace rpf::measure {
 namespace {
 
-constexpr std::uint32_t plane_words = 256;              // of 64 bits: 16,384 neighbors
-constexpr std::uint32_t blocks_in_memory = 4U << 20U;   // vectors of 64 bytes: 256 MiB, far more than caches hold
-constexpr std::uint32_t blocks_in_cache = 4U << 10U;    // 256 KiB: the columns of a large neighborhood, in the L2 cache
-constexpr std::uint32_t frame_records = 240 * 135 * 4;  // those of the frame whose phases are measured
+constexpr std::uint32_t plane_words = 256;             // of 64 bits: 16,384 neighbors
+constexpr std::uint32_t blocks_in_memory = 4U << 20U;  // vectors of 64 bytes: 256 MiB, far more than caches hold
+constexpr std::uint32_t blocks_in_cache = 4U << 10U;   // 256 KiB: the columns of a large neighborhood, in the L2 cache
 constexpr std::uint32_t reads = 1U << 22;
 
 Session& session() { return Session::of(find_device("")); }

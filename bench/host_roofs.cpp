@@ -7,8 +7,6 @@
 namespace rpf::measure {
 namespace {
 
-constexpr std::size_t frame_records = 240 * 135 * 4;
-
 /// Sets the roof from what the loop of `state` took; call it behind the loop.
 class RoofClock {
  public:

@@ -8,8 +8,6 @@
 namespace rpf::measure {
 namespace {
 
-constexpr int width = 240, height = 135;
-
 /// A pixel's state up to the phase that is measured.
 struct Pixel {
   Neighborhood neighborhood;
@@ -65,13 +63,13 @@ void count_phase(benchmark::State& state, const PlannedFrame& f, Phase phase, co
 
 /// Measures one phase; the phases before it run with the clock stopped.
 void measure(benchmark::State& state, const Settings& settings, Phase phase) {
-  const PlannedFrame f(frame_of(width, height), settings);
+  const PlannedFrame f(frame_of(phases_width, phases_height), settings);
   Pixel pixel;
   std::uint32_t number = 0;
   Work work;
   double seconds = 0;
   for (auto iteration : state) {
-    number = (number + 977) % (width * height);  // a prime step: pixels of all kinds
+    number = (number + 977) % (phases_width * phases_height);  // a prime step: pixels of all kinds
     for (int before = 0; before < static_cast<int>(phase); ++before)
       run_phase(static_cast<Phase>(before), f, number, pixel);
     const double start = cpu_seconds();

@@ -5,7 +5,7 @@
 // The same text is compiled by the host compiler and by the OpenCL compiler, and the results are equal bit for bit:
 //  1. float, int and uint; values and private pointers only.
 //  2. + - * / sqrt, comparisons and integer operations; the only transcendental is rpf_exp below.
-//     Logarithms and Gaussians are tables that the host builds (src/tables.h).
+//     Logarithms and Gaussians are tables that the host builds (src/plan/tables.h).
 //  3. No contraction: a * b + c is two roundings. The pragma below and -ffp-contract=off see to it, a test proves it.
 //  4. A sum over samples has one shape: RPF_LANES interleaved partial sums, combined by the tree in rpf_lanes_total.
 //     A 16-wide vector register and a scalar loop give the same bits. Weighted sums are taken in stretches of

@@ -51,7 +51,7 @@ RPF_INLINE uint rpf_bin_vectors(uint bins) { return (bins + RPF_BINS_AT_ONCE - 1
 RPF_INLINE int rpf_bin(float normalized, int half_bins) { return rpf_signed_bin(normalized, half_bins) + half_bins; }
 
 // I(X,Y) in nats from units = S * (sum h_xy log2 h_xy - sum h_x log2 h_x - sum h_y log2 h_y + N log2 N), an integer sum
-// over the table of src/tables.h. Every entry is off by at most half a unit, so a sum of `slack` units or less is
+// over the table of src/plan/tables.h. Every entry is off by at most half a unit, so a sum of `slack` units or less is
 // indistinguishable from 0 and counts as 0: exactly independent variables have no mutual information.
 // `nats_per_unit` = ln 2 / S; `bias`: what is subtracted times 1/N (0, or (B-1)^2 / 2 with the bias correction).
 RPF_INLINE float rpf_mutual_information(int units, int slack, float nats_per_unit, float bias, float neighbors) {

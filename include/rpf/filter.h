@@ -14,7 +14,7 @@ namespace rpf {
 
 /// Handed to Control::progress between tiles.
 struct Progress {
-  int pass = 0, passes = 0;  ///< pass 0 is the first; the polish counts with the last
+  int pass = 0, passes = 0;  ///< pass 0 is the first; the polish counts with the last; a learned estimate is one
   double fraction = 0;       ///< of the whole work, 0 .. 1, weighted by the passes' cost
   double seconds = 0;        ///< since the start
   double seconds_left = 0;   ///< estimate; negative while there is no estimate yet
@@ -50,6 +50,7 @@ struct InputNote {
 
 struct Report {
   std::string backend;                        ///< that ran, with its device: "cpu", "opencl (device)"; for "auto" why
+  std::string model, model_hash;              ///< the network of a learned estimate: its name, and the hash of its file
   std::vector<std::string> random, features;  ///< modeled channels
   std::vector<std::string> dropped;           ///< selected channels that are constant over the frame
   std::vector<std::string> uninformative;     ///< selected channels that Settings::drop_uninformative left out

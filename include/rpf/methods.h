@@ -8,7 +8,7 @@
 
 namespace rpf {
 
-/// The names of the methods, in the order of Method: "rpf", "gaussian", "bilateral", "cross-bilateral".
+/// The names of the methods, in the order of Method: "rpf", "gaussian", "bilateral", "cross-bilateral", "learned".
 std::vector<std::string> method_names();
 std::string name_of(Method method);
 

@@ -22,12 +22,20 @@ struct SampleLayout {
   std::optional<std::size_t> find(const std::string& slot) const;
 };
 
+/// Metadata that mean something beyond their name (docs/file-format.md): what marks a sample file, and its version; the
+/// seed that a frame was rendered with, and those of the frames it was merged of.
+constexpr const char *format_attribute = "rpf:format", *version_attribute = "rpf:version";
+constexpr const char *seed_attribute = "rpf:seed", *seeds_attribute = "rpf:seeds";
+
 /// True for the slots of random parameters: random.<group>[.<component>].
 bool is_random_slot(const std::string& slot);
 /// True for the slots of modeled features: feature.<group>[.<component>], without the mask feature.hit.
 bool is_feature_slot(const std::string& slot);
 /// "lens" of "random.lens.U", "N" of "feature.N.X"; empty for the slots that have no group.
 std::string group_of(const std::string& slot);
+
+/// The most samples that a buffer, and a file, can hold: their numbers are 32 bits.
+constexpr std::uint64_t most_samples_of_frame = 0xFFFFFFFEU;
 
 /// All samples of a frame. A missing value is NaN.
 /// Invariants (checked by validate()): first_sample has pixel_count() + 1 entries, starts at 0 and does not decrease;

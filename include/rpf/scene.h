@@ -55,9 +55,12 @@ std::vector<SceneInfo> scenes();
 /// Throws Error(usage) for an unknown name, naming those there are, or an option that cannot be; Error(cancelled).
 SampleBuffer render_scene(const std::string& name, const SceneOptions& options, const Control& control = {});
 
+/// The attribute of a reference that tells its own relMSE.
+constexpr const char* residual_attribute = "rpf:residualRelMSE";
+
 /// Renders `options.samples` (2 or more) samples a pixel and keeps only their mean: R, G, B. They are drawn in two
 /// halves, independent of each other and of render_scene()'s samples of the same seed. Metadata: those of
-/// render_scene(), rpf:samplesPerPixel (int) and rpf:residualRelMSE (float): the reference's own relMSE, estimated from
+/// render_scene(), rpf:samplesPerPixel (int) and residual_attribute (float): the reference's own relMSE, estimated from
 /// the difference of the halves. `adaptive`, `density`, scale and offset mean nothing here.
 Image render_reference(const std::string& name, const SceneOptions& options, const Control& control = {});
 

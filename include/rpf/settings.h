@@ -17,19 +17,23 @@ enum class Profile {
 };
 
 /// Where the weights of a sample's neighbors come from (algorithm.md, sections 3 to 8). Beside RPF the thesis's
-/// baselines, whose weights are fixed: neighbors are all samples in the box, and none is drawn, rejected or measured.
+/// baselines, whose weights are fixed: neighbors are all samples in the box, and none is drawn, rejected or measured;
+/// and the learned estimator (docs/network.md).
 enum class Method {
   rpf,             ///< from what colors and features say about the random parameters
   gaussian,        ///< from the distance on the film
   bilateral,       ///< and from the difference in color
-  cross_bilateral  ///< and from the differences in features: what RPF would be without its statistics
+  cross_bilateral,  ///< and from the differences in features: what RPF would be without its statistics
+  learned           ///< from a network that looks at every sample
 };
 
 struct Settings {
-  /// The others than rpf know box_widths, the sigmas, features, clamp_negative, the steps beyond the sources and
-  /// everything from filter_features on. method_settings() (rpf/methods.h) has box widths and sigmas that suit a
-  /// method.
+  /// Methods with fixed weights know box_widths, the sigmas, features, clamp_negative, the steps beyond the sources and
+  /// everything from filter_features on; learned knows model, random, features, clamp_negative and everything from
+  /// filter_features on. method_settings() (rpf/methods.h) has box widths and sigmas that suit a method.
   Method method = Method::rpf;
+  /// Of learned: the name of a network in the library (presets.h), or a network file.
+  std::string model = "balanced";
   std::string backend = "cpu";  ///< one of backend_names()
   std::string device;           ///< OpenCL device: index or part of a name (devices.h); empty: the first
   Profile profile = Profile::thesis;

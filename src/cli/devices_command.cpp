@@ -7,7 +7,7 @@
 namespace rpf::cli {
 namespace {
 
-constexpr double gigabyte = 1 << 30;
+constexpr double gigabyte = 1024 * megabyte;
 
 /// What the self-test says of a device; a device that fails is listed all the same.
 std::string verdict(int index) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "report/heat_map.h"
+#include "report/palette.h"
 #include "report/picture.h"
 #include "rpf/srgb.h"
 
@@ -14,8 +15,9 @@ namespace rpf::cli {
 namespace {
 
 /// Told apart by nearly everybody (Okabe and Ito). The groups that most files have keep their color in every picture.
-constexpr std::uint32_t lens_color = 0xe69f00, time_color = 0x56b4e9, light_color = 0x009e73, bsdf_color = 0xcc79a7;
-constexpr std::array<std::uint32_t, 3> other_colors = {0xf0e442, 0xd55e00, 0x0072b2};
+constexpr std::uint32_t lens_color = report::orange, time_color = report::sky_blue, light_color = report::bluish_green,
+                        bsdf_color = report::reddish_purple;
+constexpr std::array<std::uint32_t, 3> other_colors = {report::yellow, report::vermillion, report::blue};
 constexpr std::uint32_t nothing_color = 0x303030;
 
 /// Pictures end at this part of the values: a few large ones would make all others dark.

@@ -12,6 +12,7 @@
 #include "cli/explain_maps.h"
 #include "cli/explain_pages.h"
 #include "report/html_page.h"
+#include "report/palette.h"
 #include "report/picture.h"
 #include "report/plot.h"
 #include "rpf/io.h"
@@ -24,8 +25,7 @@ namespace fs = std::filesystem;
 constexpr int least_picture = 300;  ///< CSS pixels
 constexpr int histogram_cell = 4;   ///< pixels of a cell before side_by_side() enlarges it four times
 constexpr std::size_t listed_neighbors = 20;
-constexpr int dotted_pixel = 17;                                ///< pixels of one that carries a dot; odd
-constexpr std::array<float, 3> dot_color = {1.0F, 0.5F, 0.0F};  ///< orange, in linear light
+constexpr int dotted_pixel = 17;  ///< pixels of one that carries a dot; odd
 
 std::string number(float value) { return fmt::format("{:.4g}", value); }
 
@@ -91,7 +91,7 @@ Image with_dots(const Image& frame, const Window& box, const Image& map) {
       const double off =
           std::max(std::abs(x % dotted_pixel - dotted_pixel / 2), std::abs(y % dotted_pixel - dotted_pixel / 2));
       if (value > 0 && off <= side / 2)
-        std::copy(dot_color.begin(), dot_color.end(),
+        std::copy(report::mark_color.begin(), report::mark_color.end(),
                   result.pixel(static_cast<std::size_t>(y) * result.data_window.width + x));
     }
   return result;

@@ -23,8 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double megabyte = 1 << 20;
-
 std::string list(const std::vector<std::string>& names) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
 }
@@ -49,6 +47,13 @@ void print_fixed_weights(const Report& report, Method method) {
     const PassReport& p = report.passes[i];
     print("{:>4} {:>4} {:>9.1f} {:>7.4f} {:>8.2f}\n", i + 1, p.box_width, p.neighbors, p.energy, p.seconds);
   }
+}
+
+void print_learned(const Report& report) {
+  print("backend {}\nnetwork: {} ({})\nrandom parameters: {}\nfeatures: {}\n", report.backend, report.model,
+        report.model_hash, list(report.random), list(report.features));
+  if (!report.dropped.empty()) print("constant, not looked at: {}\n", list(report.dropped));
+  print("energy {:.4f}\n", report.passes.front().energy);
 }
 
 void print_report(const Report& report) {
@@ -121,13 +126,14 @@ Settings settings_within(double seconds, const SampleBuffer& samples, const Sett
 
 void print_summary(const FilterOptions& options, const SampleFileInfo& info, const Report& report, double cpu,
                    double reading) {
-  if (options.verbose && options.settings.method != Method::rpf)
-    print_fixed_weights(report, options.settings.method);
-  else if (options.verbose)
-    print_report(report);
-  print("{}: {}x{} pixels, {} samples, {} passes in {:.1f} s ({:.1f} CPU seconds, {:.1f} of them reading)\n",
-        options.output, info.data_window.width, info.data_window.height, info.sample_count, report.passes.size(),
-        report.seconds, cpu, reading);
+  const Method method = options.settings.method;
+  if (options.verbose && method == Method::rpf) print_report(report);
+  if (options.verbose && method == Method::learned) print_learned(report);
+  if (options.verbose && method != Method::rpf && method != Method::learned) print_fixed_weights(report, method);
+  const std::string how =
+      method == Method::learned ? "network " + report.model : fmt::format("{} passes", report.passes.size());
+  print("{}: {}x{} pixels, {} samples, {} in {:.1f} s ({:.1f} CPU seconds, {:.1f} of them reading)\n", options.output,
+        info.data_window.width, info.data_window.height, info.sample_count, how, report.seconds, cpu, reading);
 }
 
 int run(const FilterOptions& options, const std::vector<std::string>& arguments) {

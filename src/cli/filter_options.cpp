@@ -59,21 +59,26 @@ void add_file_options(CLI::App& app, FilterOptions& o) {
 
 void add_preset_option(CLI::App& app, std::string& preset) {
   std::vector<std::string> names;
-  std::string text = "Settings to start from; options given beside it win";
+  std::string text = "Which network weighs the samples";
   for (const PresetInfo& info : presets()) {
     names.push_back(info.name);
     text += fmt::format("\n{}: {}", info.name, info.purpose);
   }
-  app.add_option("--preset", preset, text)->check(CLI::IsMember(names));
+  app.add_option("--preset", preset, text)->check(CLI::IsMember(names))->default_str("balanced");
 }
 
 void add_model_options(CLI::App& app, FilterOptions& o) {
   add_preset_option(app, o.preset);
+  app.add_option("--model", o.settings.model, "The network of this file in place of a preset's")
+      ->type_name("FILE")
+      ->excludes("--preset");
   app.add_option("--time-budget", o.time_budget,
                  "Take the most accurate preset that is predicted to be done in this time, such as 10s, 500ms or 2m")
       ->excludes("--preset");
-  app.add_option("--profile", o.profile,
-                 "thesis: M = b^2/2 samples a neighborhood; paper: M = b^2 s/2 and the outlier step")
+  app.add_option(
+         "--profile", o.profile,
+         "Random Parameter Filtering as published. thesis: M = b^2/2 samples a neighborhood; paper: M = b^2 s/2 "
+         "and the outlier step")
       ->check(CLI::IsMember({"thesis", "paper"}))
       ->capture_default_str();
   app.add_option("--boxes", o.boxes, "Box width of each pass in pixels, or none")
@@ -166,7 +171,7 @@ void add_channel_options(CLI::App& app, FilterOptions& o) {
   app.add_option("--random", o.random,
                  "Groups of random parameters to model, all, or none; pixel is the position inside the pixel")
       ->type_name("LIST")
-      ->default_str("lens,time,light where present, with pixel in the thesis profile");
+      ->default_str("lens,time,light,bsdf; of the profiles lens,time,light, with pixel in thesis");
 }
 
 void add_machine_options(CLI::App& app, FilterOptions& o) {
@@ -210,6 +215,7 @@ void start_from(const Settings& named, FilterOptions& options) {
   options.settings = named;
   options.settings.backend = backend;
   options.profile = named.profile == Profile::paper ? "paper" : "thesis";
+  options.method = name_of(named.method);
 }
 
 void start_from_named_settings(const std::vector<std::string>& arguments, const std::string& preset,
@@ -217,8 +223,9 @@ void start_from_named_settings(const std::vector<std::string>& arguments, const 
   const std::string method = value_in(arguments, "--method");
   const std::string name = preset.empty() ? value_in(arguments, "--preset") : preset;
   if (!method.empty()) start_from(method_settings(method), options);
-  if (name.empty() || options.settings.method != Method::rpf) return;
-  start_from(preset_settings(name), options);
+  if (!method.empty() && options.settings.method != Method::learned) return;
+  const bool is_published = asks_for_published(arguments) && value_in(arguments, "--model").empty();
+  if (!name.empty() || !is_published) start_from(preset_settings(name.empty() ? "balanced" : name), options);
 }
 
 FilterOptions parse_filter_options(const std::vector<std::string>& arguments, const std::string& preset) {

@@ -37,8 +37,9 @@ void add_filter_options(CLI::App& app, FilterOptions& options);
 void start_from(const Settings& named, FilterOptions& options);
 
 /// Makes the settings that --method or --preset among the arguments name what the options are where they are not given:
-/// to be called before the parser runs. `preset` in place of the arguments' where it is not empty. Throws Error(usage)
-/// for an unknown name.
+/// to be called before the parser runs. Without either, and without an option that only the published algorithms have,
+/// they are those of the preset that is called balanced. `preset` in place of the arguments' where it is not empty.
+/// Throws Error(usage) for an unknown name.
 void start_from_named_settings(const std::vector<std::string>& arguments, const std::string& preset,
                                FilterOptions& options);
 

@@ -52,7 +52,6 @@ void print_channels(const SampleFileInfo& info, const std::vector<ChannelSurvey>
 void print_memory(const SampleFileInfo& info) {
   Settings settings;
   settings.threads = default_threads();
-  constexpr double megabyte = 1 << 20;
   for (const Profile profile : {Profile::thesis, Profile::paper}) {
     settings.profile = profile;
     print("  predicted peak memory, {} profile, {} threads: {:.0f} MB\n",

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/print.h"
 #include "cli/sample_options.h"
 #include "rpf/error.h"
 
@@ -23,7 +24,6 @@ void check_budget(const std::vector<SampleFileInfo>& files, std::uint64_t limit)
     slots = std::max(slots, slot_count(file));
   }
   const std::uint64_t need = merging_bytes(pixels, samples, slots, files.size());
-  constexpr double megabyte = 1 << 20;
   if (need > limit)
     throw Error(
         ErrorKind::memory,

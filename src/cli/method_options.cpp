@@ -18,18 +18,26 @@ struct Limited {
 };
 
 const Limited limited[] = {
-    {{"--preset", "--time-budget", "--profile", "--samples-factor", "--max-samples", "--neighbors-factor",
-      "--statistics-block", "--statistics-samples", "--noise", "--bins", "--random", "--drop-uninformative", "--seed",
-      "--alpha-factor", "--position-scale", "--redraws", "--reject-second-hit", "--bias-correction"},
+    {{"--preset", "--model", "--time-budget"}, {Method::learned}},
+    {{"--profile", "--samples-factor", "--max-samples", "--neighbors-factor", "--statistics-block",
+      "--statistics-samples", "--noise", "--bins", "--drop-uninformative", "--seed", "--alpha-factor",
+      "--position-scale", "--redraws", "--reject-second-hit", "--bias-correction"},
      {Method::rpf}},
-    {{"--features"}, {Method::rpf, Method::cross_bilateral}},
+    {{"--boxes", "--spread-spikes", "--polish"},
+     {Method::rpf, Method::gaussian, Method::bilateral, Method::cross_bilateral}},
+    {{"--random"}, {Method::rpf, Method::learned}},
+    {{"--features"}, {Method::rpf, Method::cross_bilateral, Method::learned}},
     {{"--sigma-color"}, {Method::bilateral, Method::cross_bilateral}},
     {{"--sigma-feature"}, {Method::cross_bilateral}},
 };
 
+bool knows(const Limited& group, Method method) {
+  return std::find(group.methods.begin(), group.methods.end(), method) != group.methods.end();
+}
+
 void check_given_options(const CLI::App& app, Method method) {
   for (const Limited& group : limited) {
-    if (std::find(group.methods.begin(), group.methods.end(), method) != group.methods.end()) continue;
+    if (knows(group, method)) continue;
     std::vector<std::string> names;
     for (const Method m : group.methods) names.push_back(name_of(m));
     for (const char* option : group.options)
@@ -41,13 +49,24 @@ void check_given_options(const CLI::App& app, Method method) {
 
 }  // namespace
 
+bool asks_for_published(const std::vector<std::string>& arguments) {
+  const auto is_given = [&](const char* option) {
+    return std::any_of(arguments.begin(), arguments.end(),
+                       [&](const std::string& a) { return a.substr(0, a.find('=')) == option; });
+  };
+  return std::any_of(std::begin(limited), std::end(limited), [&](const Limited& group) {
+    return !knows(group, Method::learned) && std::any_of(group.options.begin(), group.options.end(), is_given);
+  });
+}
+
 void add_method_options(CLI::App& app, FilterOptions& o) {
   app.add_option(
          "--method", o.method,
-         "rpf; gaussian: weights from the distance on the film; bilateral: and from the color; cross-bilateral: "
-         "and from the features. gaussian and bilateral also filter any image")
+         "learned: weights from a network; rpf: Random Parameter Filtering as published; gaussian: weights from the "
+         "distance on the film; bilateral: and from the color; cross-bilateral: and from the features. gaussian and "
+         "bilateral also filter any image")
       ->check(CLI::IsMember(method_names()))
-      ->capture_default_str();
+      ->default_str("learned; rpf where an option asks for it");
   app.add_option("--sigma-color", o.sigma_color,
                  "Standard deviation of the color, in linear radiance as the file has it")
       ->check(CLI::PositiveNumber)

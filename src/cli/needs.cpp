@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/print.h"
 #include "rpf/error.h"
 
 namespace rpf::cli {
@@ -18,7 +19,6 @@ FrameSize frame_size(const SampleFileInfo& info) {
 }
 
 void check_need(const SampleFileInfo& info, const char* doing, std::uint64_t need, std::uint64_t limit) {
-  constexpr double megabyte = 1 << 20;
   if (need > limit)
     throw Error(
         ErrorKind::memory,

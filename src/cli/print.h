@@ -10,6 +10,9 @@
 
 namespace rpf::cli {
 
+/// The unit of the sizes that are told.
+constexpr double megabyte = 1 << 20;
+
 /// Opens /dev/null for the standard streams that are closed, or else the first files to be opened would take their
 /// numbers and receive what is printed.
 void open_standard_streams();

@@ -60,12 +60,12 @@ void write_reference_image(const Options& o, const SceneOptions& scene) {
   write_image(o.output, image);
   if (o.quiet) return;
   print("{}: {}x{} pixels, {} samples a pixel, residual relMSE {:.3g}\n", o.output, scene.width, scene.height,
-        scene.samples, std::get<float>(image.metadata.at("rpf:residualRelMSE")));
+        scene.samples, std::get<float>(image.metadata.at(residual_attribute)));
 }
 
 /// More than the machine has: refused before anything is rendered.
 void check_budget(const SceneOptions& scene) {
-  constexpr double slots = 33, megabyte = 1 << 20;
+  constexpr double slots = 33;
   const double pixels = static_cast<double>(scene.width) * scene.height;
   const double need_mb = pixels * scene.samples * slots * sizeof(float) / megabyte;
   const double limit_mb = static_cast<double>(default_memory_limit()) / megabyte;

@@ -58,4 +58,7 @@ std::vector<std::pair<std::string, Change>> extremes();
 /// The methods with fixed weights.
 void add_methods(CaseList& list);
 
+/// The learned estimator.
+void add_estimator(CaseList& list);
+
 }  // namespace rpf

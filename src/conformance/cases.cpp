@@ -226,6 +226,7 @@ std::vector<ConformanceCase> all_conformance_cases() {
   add_explained(list);
   add_extremes(list);
   add_methods(list);
+  add_estimator(list);
   return std::move(list.cases);
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "backend.h"
 #include "rpf/conformance.h"
+#include "seam/backend.h"
 
 namespace rpf {
 

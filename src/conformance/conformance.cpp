@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <chrono>
 
-#include "backend.h"
 #include "conformance/cases.h"
 #include "conformance/lockstep.h"
 #include "conformance/tolerances.h"
 #include "opencl/session.h"
 #include "rpf/error.h"
+#include "seam/backend.h"
 
 namespace rpf {
 namespace {

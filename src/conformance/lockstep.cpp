@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <chrono>
 
+#include "after/polish.h"
+#include "after/resolve.h"
+#include "after/spikes.h"
 #include "conformance/comparison.h"
+#include "conformance/estimator_lockstep.h"
 #include "cpu/cpu_backend.h"
+#include "frame/prepare.h"
 #include "opencl/opencl_backend.h"
-#include "polish.h"
-#include "resolve.h"
 #include "rpf/filter.h"
 #include "rpf_math.h"
-#include "spikes.h"
 
 namespace rpf {
 namespace {
@@ -133,7 +135,8 @@ class Lockstep {
 
 CaseResult run_in_lockstep(const ConformanceCase& c, const std::string& device, int threads) {
   const auto start = std::chrono::steady_clock::now();
-  const Comparison comparison = Lockstep(c, device, threads).run();
+  const Comparison comparison =
+      c.network ? compare_estimates(c, samples_of(c), device, threads) : Lockstep(c, device, threads).run();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   return {c.name, comparison.stages(), comparison.first_difference(), seconds.count()};
 }

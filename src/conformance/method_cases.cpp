@@ -88,7 +88,7 @@ void add_common_settings(MethodCases& list) {
 void add_methods(CaseList& all) {
   for (const std::string& name : method_names()) {
     const Method method = method_settings(name).method;
-    if (method == Method::rpf) continue;
+    if (method == Method::rpf || method == Method::learned) continue;  // those have cases of their own
     MethodCases list(all, name);
     add_method_frames(list);
     add_common_settings(list);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "plan/box.h"
 #include "rpf_math.h"
 
 namespace rpf {
@@ -15,7 +16,7 @@ void append(std::uint32_t first, std::uint32_t last, Neighborhood& n) {
 }  // namespace
 
 void gather_box(const Frame& frame, const Plan& plan, int pass, std::uint32_t pixel, Neighborhood& n) {
-  const int reach = (plan.passes[static_cast<std::size_t>(pass)].box_width - 1) / 2;
+  const int reach = box_reach(plan.passes[static_cast<std::size_t>(pass)].box_width);
   const int x = static_cast<int>(pixel) % frame.width, y = static_cast<int>(pixel) / frame.width;
   const int left = std::max(x - reach, 0), right = std::min(x + reach, frame.width - 1);
   const std::vector<std::uint32_t>& first_sample = frame.first_sample;

@@ -4,7 +4,7 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include "backend.h"
+#include "seam/backend.h"
 
 namespace rpf {
 
@@ -27,10 +27,17 @@ class CpuBackend : public Backend {
   const std::vector<float>& explained() const override { return explained_; }
   std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const override;
   PixelTrace trace(int pass, std::uint32_t pixel) override;
+  void load_estimate(const Frame& frame, std::vector<float> colors, const EstimatePlan& plan) override;
+  std::vector<float> estimate(const Window& region, const EstimateProgress& progress) override;
+  std::vector<EstimateStage> trace_estimate(const Window& region) override;
+  std::uint64_t estimate_bytes(const EstimatePlan& plan, const Window& window, std::uint64_t samples) const override;
 
   struct Workspace;
 
  private:
+  /// [pixel of the window][carried]
+  std::vector<float> estimate_window(const Window& window, const EstimateProgress& progress,
+                                     std::vector<EstimateStage>* stages);
   /// Filters the pixels of a block that lie in the tile.
   void filter_block(int pass, const Window& block, const Window& tile, Workspace& w);
   /// explained() of a pixel of the tile, from what filtering it left in the workspace.
@@ -42,6 +49,7 @@ class CpuBackend : public Backend {
   tbb::task_arena arena_;
   const Frame* frame_ = nullptr;
   const Plan* plan_ = nullptr;
+  const EstimatePlan* estimate_plan_ = nullptr;
   std::vector<float> colors_, next_colors_;  ///< c' and c'': [sample][carried]
   std::vector<PixelStatistics> statistics_;  ///< [pixel]
   std::vector<float> explained_;             ///< [pixel of the tile][pairs + 1]

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "cpu/lane_sums.h"
-#include "frame.h"
+#include "frame/frame.h"
+#include "plan/plan.h"
 
 namespace rpf {
 

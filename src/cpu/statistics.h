@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cpu/neighborhood.h"
-#include "trace.h"
+#include "seam/trace.h"
 
 namespace rpf {
 

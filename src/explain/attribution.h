@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "frame.h"
+#include "frame/frame.h"
+#include "frame/variables.h"
 
 namespace rpf {
 

@@ -2,16 +2,21 @@
 
 #include <fmt/format.h>
 
-#include "driver.h"
+#include "after/resolve.h"
 #include "explain/attribution.h"
 #include "explain/layers.h"
 #include "explain/traced_pixel.h"
-#include "informative.h"
-#include "memory.h"
-#include "progress_meter.h"
-#include "provenance.h"
-#include "resolve.h"
+#include "frame/selection.h"
+#include "plan/validate.h"
 #include "rpf/error.h"
+#include "run/backends.h"
+#include "run/driver.h"
+#include "run/informative.h"
+#include "run/memory.h"
+#include "run/progress_meter.h"
+#include "run/provenance.h"
+#include "run/threads.h"
+#include "run/tiles.h"
 
 namespace rpf {
 namespace {
@@ -96,7 +101,7 @@ class Run {
 
   void describe(Explanation& result, const std::vector<RandomGroup>& groups, const ProgressMeter& meter) {
     for (const RandomGroup& group : groups) result.groups.push_back(group.name);
-    describe_input(*backend_, plan_, prepared_, result.report);
+    describe_input(*backend_, prepared_, result.report);
     result.report.passes.push_back(summarize(backend_->statistics(), prepared_.frame, plan_.passes[0]));
     result.report.seconds = meter.seconds();
     geometry_.metadata = provenance(geometry_.metadata, settings_, result.report);

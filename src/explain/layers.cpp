@@ -97,8 +97,8 @@ void Layers::add_tile(const Backend& backend, const Window& tile) {
 void Layers::add_colors(const std::vector<float>& mean, const std::vector<float>& filtered) {
   for (std::size_t pixel = 0; pixel < mean.size() / plan_.carried; ++pixel)
     for (std::size_t c = 0; c < 3; ++c) {
-      value(pixel, c) = mean[pixel * plan_.carried + c] / prepared_.radiance_scale;
-      value(pixel, 3 + c) = filtered[pixel * plan_.carried + c] / prepared_.radiance_scale;
+      value(pixel, c) = mean[pixel * plan_.carried + c] / prepared_.facts.radiance_scale;
+      value(pixel, 3 + c) = filtered[pixel * plan_.carried + c] / prepared_.facts.radiance_scale;
     }
 }
 
@@ -174,7 +174,7 @@ void Layers::suggest_density(const std::vector<double>& relative) {
 }
 
 void Layers::add_noise(const Attribution& attribution, const std::vector<float>& filtered) {
-  const double unit = static_cast<double>(prepared_.radiance_scale) * attribution_unit;  // of a record's radiance
+  const double unit = static_cast<double>(prepared_.facts.radiance_scale) * attribution_unit;  // of a record's radiance
   const std::vector<float> kept = kept_variance(filtered);
   std::vector<double> relative(kept.size());
   for (std::size_t pixel = 0; pixel < relative.size(); ++pixel) {

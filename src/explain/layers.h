@@ -1,9 +1,10 @@
 // The layers of an explanation: named channels of one image.
 #pragma once
 
-#include "backend.h"
 #include "explain/attribution.h"
+#include "frame/prepare.h"
 #include "rpf/explain.h"
+#include "seam/backend.h"
 
 namespace rpf {
 

@@ -45,7 +45,7 @@ std::vector<ExplainedNeighbor> neighbors_of(const PixelTrace& trace, const Prepa
       const float* color = prepared.frame.record(sample);
       ExplainedNeighbor neighbor;
       neighbor.pixel = position_of(pixel_of_sample(prepared.frame, sample), plan, data_window);
-      for (std::size_t c = 0; c < 3; ++c) neighbor.color[c] = color[c] / prepared.radiance_scale;
+      for (std::size_t c = 0; c < 3; ++c) neighbor.color[c] = color[c] / prepared.facts.radiance_scale;
       result.push_back(neighbor);
     }
     ++result[place->second].drawn;

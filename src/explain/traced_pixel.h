@@ -1,9 +1,10 @@
 // One pixel's trace in the words of the public header.
 #pragma once
 
-#include "frame.h"
+#include "frame/prepare.h"
+#include "plan/plan.h"
 #include "rpf/explain.h"
-#include "trace.h"
+#include "seam/trace.h"
 
 namespace rpf {
 

@@ -3,12 +3,12 @@
 
 #include <string>
 
+#include "rpf/samples.h"
+
 namespace rpf::io {
 
-/// The marker of a sample file and its version (docs/file-format.md).
-constexpr const char* format_attribute = "rpf:format";
+/// What format_attribute and version_attribute say of a sample file (docs/file-format.md).
 constexpr const char* format_value = "mc-samples";
-constexpr const char* version_attribute = "rpf:version";
 constexpr int format_version = 1;
 
 /// True for attributes that describe how a file stores its data. They are no metadata: the writer makes its own.

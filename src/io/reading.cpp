@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "io/channel_names.h"
 #include "rpf/error.h"
@@ -21,11 +20,11 @@ void check_budget(const std::string& path, std::uint64_t need, std::uint64_t lim
 }
 
 void check_sample_count(const SampleFileInfo& info) {
-  if (info.sample_count >= std::numeric_limits<std::uint32_t>::max())
+  if (info.sample_count > most_samples_of_frame)
     throw Error(ErrorKind::input,
                 fmt::format("\"{}\" holds {} samples, more than the {} that one buffer takes; crop or "
                             "split the frame",
-                            info.path, info.sample_count, std::numeric_limits<std::uint32_t>::max() - 1));
+                            info.path, info.sample_count, most_samples_of_frame));
 }
 
 void check_read_back(const std::string& path, const SampleFileInfo& back, const SampleBuffer& samples) {

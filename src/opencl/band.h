@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "frame.h"
+#include "frame/frame.h"
 #include "opencl/session.h"
 #include "pass.h"
+#include "plan/plan.h"
 
 namespace rpf {
 

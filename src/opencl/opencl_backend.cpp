@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "opencl/trace_reader.h"
+#include "plan/box.h"
 
 namespace rpf {
 namespace {
@@ -65,7 +66,7 @@ std::vector<float> scales_of(const PassPlan& pass) {
   return scales;
 }
 
-int reach_of(const PassPlan& pass) { return (pass.box_width - 1) / 2; }
+int reach_of(const PassPlan& pass) { return box_reach(pass.box_width); }
 
 /// The rows that a pass reads for a tile: also for pixels above it that measure for its first ones.
 Rows rows_read(const Plan& plan, int pass, const Window& tile) {
@@ -80,7 +81,8 @@ OpenClBackend::OpenClBackend(const OpenClOptions& options)
     : session_(Session::of(find_device(options.device))),
       band_bytes_(options.band_bytes),
       phases_(options.phases > 0 ? fmt::format(" -DRPF_PHASES={}", options.phases) : ""),
-      items_(work_items(session_.device(), options.threads)) {}
+      items_(work_items(session_.device(), options.threads)),
+      blocking_(options.blocking) {}
 
 std::string OpenClBackend::description() const {
   return "opencl (" + session_.device().getInfo<CL_DEVICE_NAME>() + ")";

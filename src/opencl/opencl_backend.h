@@ -1,18 +1,23 @@
 // The OpenCL backend: the kernels of kernels/filter.cl or kernels/box.cl, band by band. The same bits as the reference.
 #pragma once
 
-#include "backend.h"
+#include <memory>
+#include <optional>
+
 #include "opencl/band.h"
+#include "opencl/network_program.h"
 #include "opencl/scratch.h"
 #include "opencl/session.h"
+#include "seam/backend.h"
 
 namespace rpf {
 
 /// How a device is used; the defaults are for users, the rest for tests and benchmarks.
 struct OpenClOptions {
-  std::string device;            ///< index or part of a name; empty: the first
-  int threads = 1;               ///< compute units to keep busy, on a device that is a CPU
-  std::uint64_t band_bytes = 0;  ///< most bytes of a band; 0: what the device has
+  std::string device;                     ///< index or part of a name; empty: the first
+  int threads = 1;                        ///< compute units to keep busy, on a device that is a CPU
+  std::uint64_t band_bytes = 0;           ///< most bytes of a band; 0: what the device has
+  std::optional<Blocking> blocking = {};  ///< of the learned estimator's layers; by default what is best for the device
   int phases = 0;  ///< only the first phases of a pixel: draw, gather, prepare, information, weights; 0: all
 };
 
@@ -31,6 +36,10 @@ class OpenClBackend : public Backend {
   const std::vector<float>& explained() const override { return explained_; }
   std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const override;
   PixelTrace trace(int pass, std::uint32_t pixel) override;
+  void load_estimate(const Frame& frame, std::vector<float> colors, const EstimatePlan& plan) override;
+  std::vector<float> estimate(const Window& region, const EstimateProgress& progress) override;
+  std::vector<EstimateStage> trace_estimate(const Window& region) override;
+  std::uint64_t estimate_bytes(const EstimatePlan& plan, const Window& window, std::uint64_t samples) const override;
 
  private:
   /// What stays on the device for a pass: the plan's tables, or the coordinates of fixed weights.
@@ -69,6 +78,9 @@ class OpenClBackend : public Backend {
   std::size_t items_;   ///< work-items that run at once
   const Frame* frame_ = nullptr;
   const Plan* plan_ = nullptr;
+  const EstimatePlan* estimate_plan_ = nullptr;
+  std::optional<Blocking> blocking_;
+  std::unique_ptr<NetworkProgram> network_;
   std::vector<float> colors_, next_colors_;  ///< c' and c'': [sample][carried]
   std::vector<PixelStatistics> statistics_;  ///< [pixel]
   std::vector<float> explained_;             ///< [pixel of the tile][pairs + 1]

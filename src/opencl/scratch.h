@@ -2,7 +2,7 @@
 #pragma once
 
 #include "opencl/session.h"
-#include "plan.h"
+#include "plan/plan.h"
 
 namespace rpf {
 

@@ -132,11 +132,11 @@ Session& Session::of(int device) {
 
 Session::Session(cl::Device device) : device_(std::move(device)), context_(device_), queue_(context_, device_) {}
 
-const cl::Program& Session::program(const std::string& file, const std::string& definitions) {
-  const std::string key = file + " " + definitions;
+const cl::Program& Session::program(const std::string& file, const std::string& definitions, const std::string& more) {
+  const std::string key = file + " " + definitions + "\n" + more;
   if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
   check_address_space_to_compile();
-  const std::string text = kernel_source(file), options = build_options(device_, definitions);
+  const std::string text = kernel_source(file) + more, options = build_options(device_, definitions);
   const std::string source = fmt::format("{}\n{}\n{}\n{}", device_.getInfo<CL_DEVICE_NAME>(),
                                          device_.getInfo<CL_DRIVER_VERSION>(), options, text);
   check_kernels(source);
@@ -155,14 +155,24 @@ const cl::Program& Session::program(const std::string& file, const std::string& 
 }
 
 void Session::launch(const cl::Kernel& kernel, std::size_t items, std::size_t group) {
+  enqueue(kernel, items, group);
+  finish();
+}
+
+void Session::enqueue(const cl::Kernel& kernel, std::size_t items, std::size_t group) {
   const cl_program program = kernel.getInfo<CL_KERNEL_PROGRAM>()();
   const std::string name = fmt::format("{} of {}", kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(), fmt::ptr(program));
   const bool is_new = launched_.insert(name).second;
   if (is_new) check_address_space_to_compile();
   queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(group));
+  if (!is_new) return;
+  finish();
+  keep_compiled_kernels(sources_[program]);
+}
+
+void Session::finish() {
   queue_.finish();
   canaries_.check(queue_);
-  if (is_new) keep_compiled_kernels(sources_[program]);
 }
 
 cl::Buffer Session::copy_of(const void* data, std::size_t bytes) {

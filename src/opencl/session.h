@@ -43,12 +43,15 @@ class Session {
   const cl::Device& device() const { return device_; }
   const cl::Context& context() const { return context_; }
 
-  /// A program from kernels/`file`, compiled with these definitions ("-D..."), or what an earlier call compiled. Throws
-  /// Error(device) with the build log.
-  const cl::Program& program(const std::string& file, const std::string& definitions);
+  /// A program from kernels/`file`, with more text behind it, compiled with these definitions ("-D..."), or what an
+  /// earlier call compiled. Throws Error(device) with the build log.
+  const cl::Program& program(const std::string& file, const std::string& definitions, const std::string& more = "");
 
   /// Runs a kernel over so many work-items in groups, and waits for it. PoCL compiles at the first launch.
   void launch(const cl::Kernel& kernel, std::size_t items, std::size_t group);
+  /// The same without waiting, but for a kernel's first launch: what is asked for later comes after it. finish() waits.
+  void enqueue(const cl::Kernel& kernel, std::size_t items, std::size_t group);
+  void finish();
 
   /// A buffer of the device's own.
   cl::Buffer buffer(std::size_t bytes) { return canaries_.allocate(context_, queue_, CL_MEM_READ_WRITE, bytes); }
@@ -77,7 +80,7 @@ class Session {
   cl::Context context_;
   cl::CommandQueue queue_;
   Canaries canaries_;
-  std::map<std::string, cl::Program> programs_;  ///< by file and definitions
+  std::map<std::string, cl::Program> programs_;  ///< by file, definitions and more text
   std::map<cl_program, std::string> sources_;    ///< what each was compiled from: text, options, device
   std::set<std::string> launched_;               ///< kernels that ran, with their program
 };

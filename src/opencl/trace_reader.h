@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "opencl/scratch.h"
-#include "trace.h"
+#include "seam/trace.h"
 #include "trace_layout.h"
 
 namespace rpf {

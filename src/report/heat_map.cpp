@@ -9,7 +9,7 @@
 namespace rpf::report {
 namespace {
 
-constexpr int gap = 8, bar_width = 16, tick_width = 6;  ///< pixels
+constexpr int bar_width = 16, tick_width = 6;  ///< pixels
 const double decades = std::log10(brightest_error / darkest_error);
 
 using Color = std::array<float, 3>;
@@ -53,13 +53,13 @@ Image heat_map(const Image& errors) {
 
 Image with_legend(const Image& picture) {
   const int width = picture.data_window.width, height = picture.data_window.height;
-  Image result = plain_picture(width + gap + bar_width + tick_width, height, 1);
+  Image result = plain_picture(width + picture_gap + bar_width + tick_width, height, 1);
   for (int y = 0; y < height; ++y) {
     const float* row = picture.pixel(static_cast<std::size_t>(y) * width);
     std::copy(row, row + 3 * static_cast<std::size_t>(width),
               result.pixel(static_cast<std::size_t>(y) * result.data_window.width));
   }
-  draw_bar(result, width + gap);
+  draw_bar(result, width + picture_gap);
   return result;
 }
 

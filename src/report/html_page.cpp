@@ -8,6 +8,7 @@
 #include <regex>
 #include <string_view>
 
+#include "report/palette.h"
 #include "report/style.h"
 #include "report/text_file.h"
 #include "rpf/error.h"
@@ -39,8 +40,6 @@ std::string data_address(const std::string& file) {
     throw Error(ErrorKind::input, fmt::format("\"{}\" cannot be shown in a page; a PNG or JPEG is expected", file));
   return fmt::format("data:image/{};base64,{}", png ? "png" : "jpeg", base64(bytes));
 }
-
-std::string html_color(std::uint32_t color) { return fmt::format("#{:06x}", color & 0xffffffU); }
 
 std::string legend_html(const Legend& legend) {
   if (legend.entries.empty()) return "";

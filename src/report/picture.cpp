@@ -1,4 +1,5 @@
 #include "report/picture.h"
+#include "report/palette.h"
 
 #include <algorithm>
 #include <array>
@@ -6,11 +7,9 @@
 namespace rpf::report {
 namespace {
 
-constexpr int gap = 8;
 constexpr int comfortable_width = 400;  ///< a smaller image is enlarged to about this
 constexpr int widest_row = 4000;        ///< a wider row is shrunk to about this
 constexpr int line_width = 2;
-constexpr std::array<float, 3> line_color = {1.0F, 0.5F, 0.0F};  ///< orange, in linear light
 
 using Columns = std::array<std::size_t, 3>;
 
@@ -65,7 +64,7 @@ void draw_outline(const Window& size, const Window& crop, const Scale& scale, in
     for (int x = left; x < right; ++x) {
       const int to_edge = std::min({x - left, right - 1 - x, y - top, bottom - 1 - y});
       if (to_edge < line_width)
-        std::copy(line_color.begin(), line_color.end(),
+        std::copy(mark_color.begin(), mark_color.end(),
                   target.pixel(static_cast<std::size_t>(y) * target.data_window.width + image_left + x));
     }
 }
@@ -92,16 +91,16 @@ Image side_by_side(const std::vector<Image>& images, const std::optional<Window>
   const Scale scale = scale_of(size, count);
   const int width = scale.length(size.width), height = scale.length(size.height);
   const Scale magnified = crop ? magnification(size, *crop, scale) : scale;
-  Image result =
-      plain_picture(count * width + (count - 1) * gap, height + (crop ? gap + magnified.length(crop->height) : 0), 1);
+  Image result = plain_picture(count * width + (count - 1) * picture_gap,
+                               height + (crop ? picture_gap + magnified.length(crop->height) : 0), 1);
   int left = 0;
   for (const Image& image : images) {
     paste(image, {0, 0, size.width, size.height}, scale, left, 0, result);
     if (crop) {
       draw_outline(size, *crop, scale, left, result);
-      paste(image, *crop, magnified, left, height + gap, result);
+      paste(image, *crop, magnified, left, height + picture_gap, result);
     }
-    left += width + gap;
+    left += width + picture_gap;
   }
   return result;
 }

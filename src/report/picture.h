@@ -7,6 +7,9 @@
 
 namespace rpf::report {
 
+/// White pixels between what stands side by side.
+constexpr int picture_gap = 8;
+
 /// An image of R, G and B, all of one value.
 Image plain_picture(int width, int height, float value);
 

@@ -10,13 +10,14 @@
 
 #include "bench/child.h"
 #include "io/checked_writer.h"
+#include "report/palette.h"
 #include "rpf/error.h"
 
 namespace rpf::report {
 namespace {
 
-/// Told apart by nearly everybody (Okabe and Ito); the lines of a plot take them in turns.
-constexpr const char* colors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
+/// The lines of a plot take them in turns.
+constexpr std::uint32_t colors[] = {blue, vermillion, bluish_green, reddish_purple, orange, sky_blue, black};
 
 std::string quoted(const std::string& text) {
   std::string result = "'";
@@ -57,7 +58,7 @@ std::string curves_of(const Plot& plot) {
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < plot.curves.size(); ++i)
     parts.push_back(fmt::format("$curve{} using 1:2 with {} linecolor rgb '{}' title {}", i, drawn,
-                                colors[i % std::size(colors)], quoted(plot.curves[i].name)));
+                                html_color(colors[i % std::size(colors)]), quoted(plot.curves[i].name)));
   return fmt::format("plot {}\n", fmt::join(parts, ", "));
 }
 

@@ -10,8 +10,7 @@
 namespace rpf::scene {
 namespace {
 
-constexpr std::uint64_t most_samples = 4294967294U;  // of a file
-constexpr std::uint32_t counts_key = 0xc0117500U;    // apart from everything else that the seed decides
+constexpr std::uint32_t counts_key = 0xc0117500U;  // apart from everything else that the seed decides
 
 void check_density(const Image& density, const SceneOptions& options) {
   if (density.data_window.width != options.width || density.data_window.height != options.height)
@@ -43,10 +42,10 @@ std::vector<std::uint32_t> first_samples(const SceneOptions& options) {
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
     const float random = to_unit(hash(hash(options.seed, counts_key), static_cast<std::uint32_t>(pixel)));
     total += std::floor(wanted(options, pixel, random));
-    if (total > static_cast<double>(most_samples))
+    if (total > static_cast<double>(most_samples_of_frame))
       throw Error(ErrorKind::usage, fmt::format("scene: more than {} samples in the frame; choose a smaller --size, "
                                                 "--spp or density",
-                                                most_samples));
+                                                most_samples_of_frame));
     first.push_back(static_cast<std::uint32_t>(total));
   }
   return first;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "rpf/error.h"
+#include "rpf/samples.h"
 #include "rpf/scene.h"
 #include "rpf/version.h"
 #include "scene/counts.h"
@@ -29,7 +30,7 @@ std::string sampler_name(SceneSampler sampler) {
 }
 
 Metadata metadata_of(const std::string& name, const SceneOptions& options) {
-  return {{"rpf:seed", static_cast<std::int32_t>(options.seed)},
+  return {{seed_attribute, static_cast<std::int32_t>(options.seed)},
           {"rpf:renderer", fmt::format("rpf scene {}", version())},
           {"rpf:scene", name},
           {"rpf:sampler", sampler_name(options.sampler)}};
@@ -111,7 +112,7 @@ Image render_reference(const std::string& name, const SceneOptions& options, con
   for (const double error : errors) sum += error;
   image.metadata = metadata_of(name, options);
   image.metadata["rpf:samplesPerPixel"] = std::int32_t{options.samples};
-  image.metadata["rpf:residualRelMSE"] = static_cast<float>(sum / static_cast<double>(pixels));
+  image.metadata[residual_attribute] = static_cast<float>(sum / static_cast<double>(pixels));
   return image;
 }
 

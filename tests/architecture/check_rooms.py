@@ -5,40 +5,51 @@ from pathlib import Path
 
 PROJECT = Path(sys.argv[1])
 
-# A room may include what stands behind it, and itself. Dependencies point downwards only.
-API = {"include"}
+# A room may include the public headers, itself, and the rooms that stand behind it: these and no others, each of them in
+# use. A room stands below all that it may include; so there is no circle.
+API = "include"
 ROOMS = {
-    "kernels": set(),
-    "include": set(),
-    "src": API | {"kernels"},                 # the driver: no device, no file format
-    "src/cpu": API | {"src", "kernels"},
-    "src/opencl": API | {"src", "kernels"},
-    "src/conformance": API | {"src", "src/cpu", "src/opencl", "kernels"},
-    "src/explain": API | {"src", "kernels"},
-    "src/io": API,
-    "src/images": API | {"src/io"},           # a library of its own; src/io loads it
-    "src/metrics": API,
-    "src/scene": API,
-    "src/bench": API,
-    "src/report": API | {"src/io", "src/bench"},  # files that are whole or untouched; gnuplot as a program
-    "src/study": API | {"src/bench", "src/report"},
-    "src/cli": API | {"src/bench", "src/report", "src/study"},
-    "examples": API,
-    "bench": API | {"src", "src/cpu", "src/opencl", "src/bench", "kernels"},
-    "tests": API | {"src", "src/cpu", "src/opencl", "src/conformance", "src/explain", "src/io", "src/metrics", "src/scene", "src/bench", "src/report", "src/study", "kernels"},
+    "kernels": "",
+    "include": "",
+    # what was rendered; what will be done about it; what a backend is asked
+    "src/frame": "",
+    "src/plan": "src/frame kernels",
+    "src/learned": "src/frame kernels",  # the estimator of docs/network.md: its networks, what it is shown
+    "src/seam": "src/frame src/plan src/learned kernels",
+    # those who do it; what follows a pass; the run
+    "src/cpu": "src/frame src/plan src/learned src/seam kernels",
+    "src/opencl": "src/frame src/plan src/seam kernels",
+    "src/after": "src/frame src/plan kernels",
+    "src/run": "src/frame src/plan src/learned src/seam src/cpu src/opencl src/after kernels",
+    "src/explain": "src/frame src/plan src/seam src/after src/run kernels",
+    "src/conformance": "src/frame src/learned src/seam src/cpu src/opencl src/after kernels",
+    # beside the filter, sharing nothing with it but the public headers
+    "src/io": "",
+    "src/images": "src/io",           # a library of its own; src/io loads it
+    "src/metrics": "",
+    "src/scene": "",
+    # the command
+    "src/bench": "",
+    "src/report": "src/io src/bench",  # files that are whole or untouched; gnuplot as a program
+    "src/study": "src/bench src/report",
+    "src/cli": "src/bench src/report src/study",
+    "examples": "",
+    "bench": "src/frame src/plan src/cpu src/opencl src/bench kernels",
 }
+ROOMS = {room: {API, *targets.split()} for room, targets in ROOMS.items()}
+ROOMS["kernels"] = ROOMS[API] = set()
+ROOMS["tests"] = set(ROOMS) - {"src/images", "src/cli", "examples", "bench"}
 # Third-party headers, each in one room only (beside the tests).
 LIBRARIES = {
     "OpenEXR/": {"src/io"}, "Imf": {"src/io"}, "libdeflate": {"src/io"}, "OpenImageIO/": {"src/images"}, "CL/": {"src/opencl"}, "CLI/": {"src/cli"},
-    "embree3/": {"src/scene"}, "tbb/": {"src", "src/cpu", "src/explain", "src/scene"}, "benchmark/": {"bench"},
-    "fmt/": {"src", "src/opencl", "src/conformance", "src/explain", "src/io", "src/images", "src/metrics", "src/scene", "src/cli", "src/bench", "src/report", "src/study"},
-    "nlohmann/": {"src/cli", "src/io", "src/conformance", "src/bench", "src/study"},  # what is printed as JSON; the header of raw sample files
+    "embree3/": {"src/scene"}, "tbb/": {"src/after", "src/cpu", "src/explain", "src/scene"}, "benchmark/": {"bench"},
+    "fmt/": {"src/frame", "src/plan", "src/learned", "src/run", "src/opencl", "src/conformance", "src/explain", "src/io", "src/images", "src/metrics", "src/scene", "src/cli", "src/bench", "src/report", "src/study"},
+    "nlohmann/": {"src/learned", "src/cli", "src/io", "src/conformance", "src/bench", "src/study"},  # what is printed as JSON; the header of raw sample files
 }
-# The one place that knows all backends.
-EXCEPTIONS = {("src/backends.cpp", "src/cpu"), ("src/backends.cpp", "src/opencl")}
 LONGEST_FILE = 400
 
 failures = []
+used = set()                                  # (room, room that it includes)
 
 
 def room_of(path):
@@ -60,7 +71,8 @@ def check_include(file, name):
     room, place = room_of(file), str(file.relative_to(PROJECT))
     target = included_room(name, file)
     if target is not None:
-        if target != room and target not in ROOMS[room] and (place, target) not in EXCEPTIONS:
+        used.add((room, target))
+        if target != room and target not in ROOMS[room]:
             failures.append(f"{place} includes {name}: {room} must not depend on {target}")
         return
     for prefix, rooms in LIBRARIES.items():
@@ -75,11 +87,46 @@ def check_silence(file, text):
             failures.append(f"{file.relative_to(PROJECT)} has {word}: only src/cli prints and ends the process")
 
 
+def check_arrows():
+    """Every allowed arrow is used and points to a room that stands above."""
+    order = list(ROOMS)
+    for room, targets in ROOMS.items():
+        for target in targets - {API} if room != "tests" else ():
+            if order.index(target) >= order.index(room):
+                failures.append(f"{room} may include {target}, which does not stand above it")
+            if (room, target) not in used:
+                failures.append(f"{room} may include {target} and does not: take the arrow away")
+
+
+def check_folders():
+    """src holds rooms and nothing else; the build lists each of them, and unit tests lie in folders named as rooms."""
+    build = (PROJECT / "CMakeLists.txt").read_text()
+    listed = " ".join(re.findall(r"^sources_of_rooms\(\w+ ([^)]*)\)", build, re.M)).split()
+    for entry in sorted((PROJECT / "src").iterdir()):
+        if f"src/{entry.name}" not in ROOMS or not entry.is_dir():
+            failures.append(f"src/{entry.name}: src holds rooms only, and check_rooms.py does not know this one")
+        elif listed.count(entry.name) != 1:
+            failures.append(f"src/{entry.name}: CMakeLists.txt must list the room once with sources_of_rooms()")
+    for entry in sorted((PROJECT / "tests" / "unit").iterdir()):
+        if entry.is_dir() and not {entry.name, f"src/{entry.name}"} & set(ROOMS):
+            failures.append(f"tests/unit/{entry.name}: the folders of unit tests are named as rooms")
+        if entry.name.endswith("_test.cpp"):
+            failures.append(f"tests/unit/{entry.name}: unit tests lie in the folder of a room")
+
+
 def sources():
     for folder in ("include", "kernels", "src", "tests", "bench", "examples"):
         for file in sorted((PROJECT / folder).rglob("*")):
             if file.suffix in (".h", ".cpp", ".cl", ".py"):
                 yield file
+
+
+def check_docs():
+    """What a document calls a place in src is one: a folder, or a file without its ending."""
+    for document in sorted((PROJECT / "docs").glob("*.md")):
+        for name in re.findall(r"`(src/[\w./]+)`", document.read_text()):
+            if not any((PROJECT / f"{name}{ending}").exists() for ending in ("", ".h", ".cpp")):
+                failures.append(f"docs/{document.name}: there is no {name}")
 
 
 def check_readme():
@@ -101,6 +148,9 @@ def main():
         check_silence(file, text)
         for name in re.findall(r'^\s*#include [<"]([^>"]+)[>"]', text, re.M):
             check_include(file, name)
+    check_arrows()
+    check_folders()
+    check_docs()
     check_readme()
     print("\n".join(failures) or "all arrows point downwards")
     return 1 if failures else 0

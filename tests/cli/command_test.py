@@ -103,20 +103,35 @@ class CommandTest(CommandCase):
         self.expect(run("convert", EXAMPLE, "-o", samples, *(f"--map=feature.{slot}=" for slot in slots)), 0)
         self.expect(run(samples, "-o", self.output, "--aov", self.folder / "layers.exr", *QUICK), 2, "--aov", "no features")
 
-    def test_options_beside_a_preset_win_wherever_they_stand(self):
-        for arguments in (["--preset", "fast", "--noise", "0.5"], ["--noise", "0.5", "--preset=fast"]):
-            self.expect(run(EXAMPLE, "-o", self.output, "-q", "--crop", "4x4+20+20", *arguments), 0)
-            header = self.output.read_bytes()
-            self.assertIn(b"statistics-block=4", header)                              # the preset's
-            self.assertIn(b"rpf:noise\0float\0\x04\0\0\0\0\0\0\x3f", header)  # 0.5
+    def test_a_preset_is_the_network_of_its_name(self):
+        other, crop = self.folder / "other.exr", ["-q", "--crop", "9x9+20+20"]
+        for name in ("fast", "balanced", "high"):
+            self.expect(run(EXAMPLE, "-o", self.output, "--preset", name, *crop), 0)
+            self.assertIn(b"rpf:modelHash", self.output.read_bytes())
+            self.expect(run(EXAMPLE, "-o", other, "--model", PROJECT / "networks" / f"{name}.rpfnet", *crop), 0)
+            self.assertEqual(self.output.read_bytes(), other.read_bytes())
 
-    def test_a_preset_is_its_options(self):
-        other = self.folder / "other.exr"
-        options = ["--profile", "paper", "--features", "first", "--boxes", "11,5", "--samples-factor", "4", "--noise",
-                   "0.005", "--spread-spikes", "--polish", "0.15"]
-        self.expect(run(EXAMPLE, "-o", self.output, "-q", "--preset", "balanced", "--crop", "9x9+20+20"), 0)
-        self.expect(run(EXAMPLE, "-o", other, "-q", *options, "--crop", "9x9+20+20"), 0)
-        self.assertEqual(self.output.read_bytes(), other.read_bytes())
+    def test_balanced_is_what_filters_where_nothing_else_is_asked_for(self):
+        other, crop = self.folder / "other.exr", ["-q", "--crop", "9x9+20+20"]
+        self.expect(run(EXAMPLE, "-o", self.output, *crop), 0)
+        for arguments in (["--preset", "balanced"], ["--method", "learned"], ["--preset=balanced", "--method=learned"]):
+            self.expect(run(EXAMPLE, "-o", other, *arguments, *crop), 0)
+            self.assertEqual(self.output.read_bytes(), other.read_bytes())
+
+    def test_an_option_of_the_published_algorithm_asks_for_it(self):
+        for arguments in (["--profile", "paper"], ["--noise=0.5"], ["--boxes", "5"], ["--spread-spikes"], ["--seed", "3"]):
+            self.expect(run(EXAMPLE, "-o", self.output, "-q", "--crop", "4x4+20+20", *arguments), 0)
+            self.assertIn(b"rpf:method\0string\0\x03\0\0\0rpf", self.output.read_bytes())
+            self.expect(run(EXAMPLE, "-o", self.output, "--preset", "fast", *arguments), 2, "means nothing to --method learned")
+
+    def test_a_model_that_is_no_network_is_refused(self):
+        junk = self.folder / "junk.rpfnet"
+        junk.write_bytes(b"junk")
+        self.expect(run(EXAMPLE, "-o", self.output, "--model", junk), 3, "junk.rpfnet", "not a network file")
+        self.expect(run(EXAMPLE, "-o", self.output, "--model", "absent"), 2, "'absent'", "balanced, fast, high")
+        self.expect(run(EXAMPLE, "-o", self.output, "--model", junk, "--preset", "fast"), 2, "excludes")
+        junk.unlink()
+        self.expect_nothing_written()
 
     def test_time_budget_takes_the_best_preset_that_fits(self):
         crop = ["--crop", "4x4+20+20"]
@@ -157,7 +172,8 @@ class CommandTest(CommandCase):
         self.expect(run(image, "-o", self.output, "--method", "gaussian", "--map", "R=G"), 2, "is an image")
 
     def test_refuses_options_that_mean_nothing_to_the_method(self):
-        for method, option in (("gaussian", ["--noise", "1"]), ("bilateral", ["--preset", "fast"]),
+        for method, option in (("gaussian", ["--noise", "1"]), ("bilateral", ["--preset", "fast"]), ("rpf", ["--preset", "fast"]),
+                               ("learned", ["--noise", "1"]), ("rpf", ["--model", "fast"]),
                                ("cross-bilateral", ["--profile", "paper"]), ("gaussian", ["--features", "N"]),
                                ("gaussian", ["--sigma-color", "1"]), ("bilateral", ["--sigma-feature", "1"]),
                                ("rpf", ["--sigma-color", "1"]), ("gaussian", ["--time-budget", "1s"])):

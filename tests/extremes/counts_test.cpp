@@ -4,7 +4,7 @@
 
 #include "arbitrary.h"
 #include "io/reading.h"
-#include "plan.h"
+#include "plan/plan.h"
 #include "rpf/error.h"
 #include "tolerances.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "driver.h"
+#include "run/driver.h"
 
 namespace rpf::test {
 
@@ -14,7 +14,7 @@ std::vector<Stages> stages_of(const SampleBuffer& samples, const Settings& setti
   run_filter(samples, settings, {}, [&](Backend& backend, const Plan& plan, int pass) {
     for (const std::uint32_t pixel : pixels) {
       if (pass > 0 || prepared.frame.samples(pixel) == 0) continue;
-      Stages s{backend.trace(pass, pixel), plan, {}, prepared.radiance_scale};
+      Stages s{backend.trace(pass, pixel), plan, {}, prepared.facts.radiance_scale};
       s.values.resize(plan.variables.count());
       for (const std::uint32_t neighbor : s.trace.neighbors)
         for (std::size_t v = 0; v < s.values.size(); ++v) s.values[v].push_back(prepared.frame.record(neighbor)[v]);

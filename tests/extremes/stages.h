@@ -3,10 +3,11 @@
 
 #include <vector>
 
-#include "frame.h"
+#include "frame/frame.h"
+#include "plan/plan.h"
 #include "rpf/samples.h"
 #include "rpf/settings.h"
-#include "trace.h"
+#include "seam/trace.h"
 
 namespace rpf::test {
 

@@ -1,7 +1,7 @@
 """Mutants of the methods with fixed weights (algorithm.md, section 8), of the reference and of the OpenCL kernel."""
 from mutants import ELEMENTWISE, PREPARE, Mutant
 
-BOX, BOX_KERNEL, FIXED_WEIGHTS = "src/cpu/box.cpp", "kernels/box.cl", "src/fixed_weights.cpp"
+BOX, BOX_KERNEL, FIXED_WEIGHTS = "src/cpu/box.cpp", "kernels/box.cl", "src/plan/fixed_weights.cpp"
 
 MUTANTS = [
     Mutant("box_row", BOX, "frame.height - 1); ++row", "frame.height - 2); ++row", "oracle gaussian neighbors", "box: without the last row"),
@@ -10,7 +10,7 @@ MUTANTS = [
     Mutant("box_missing", ELEMENTWISE, "rpf_or_zero(value - center)", "rpf_or_zero(value) - center",
            "oracle cross_bilateral_missing weights", "a missing feature counts as 0 instead of the mean"),
     Mutant("box_sigma", FIXED_WEIGHTS, "(std::sqrt(2.0) * sigma)", "sigma", "oracle gaussian weights", "sigma: without the 2"),
-    Mutant("box_group", FIXED_WEIGHTS, "group_of_variable(names[other]) == group_of_variable(names[k])", "other == k",
+    Mutant("box_group", "src/frame/feature_spread.cpp", "group_of_variable(names[other]) == group_of_variable(names[k])", "other == k",
            "oracle cross_bilateral weights", "features: a unit for every component"),
     Mutant("box_radiance", FIXED_WEIGHTS, "(settings.sigma_color) * facts.radiance_scale", "(settings.sigma_color)",
            "oracle bilateral weights", "sigma of the color: in scaled radiance"),

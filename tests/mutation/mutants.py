@@ -9,11 +9,12 @@ from dataclasses import dataclass
 NUMERIC, ELEMENTWISE, MATH = "kernels/numeric.h", "kernels/elementwise.h", "kernels/rpf_math.h"
 NEIGHBORHOOD, STATISTICS = "src/cpu/neighborhood.cpp", "src/cpu/statistics.cpp"
 WEIGHTING, BACKEND = "src/cpu/weighting.cpp", "src/cpu/cpu_backend.cpp"
-PLAN, TABLES, CLEAN = "src/plan.cpp", "src/tables.cpp", "src/clean.cpp"
-PREPARE, DRIVER, RESOLVE = "src/prepare.cpp", "src/driver.cpp", "src/resolve.cpp"
-MERGE, RAW_READER, HDR_FLIP = "src/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
-SELECTION, SPIKES, POLISH_TILE = "src/selection.cpp", "src/spikes.cpp", "src/polish_tile.cpp"
-INFORMATION, INFORMATIVE = "src/information.cpp", "src/informative.cpp"
+PLAN, TABLES, CLEAN = "src/plan/plan.cpp", "src/plan/tables.cpp", "src/frame/clean.cpp"
+SIZE, REGIONS, VALIDATE = "src/plan/neighborhood_size.cpp", "src/plan/regions.cpp", "src/plan/validate.cpp"
+PREPARE, DRIVER, RESOLVE = "src/frame/prepare.cpp", "src/run/driver.cpp", "src/after/resolve.cpp"
+MERGE, RAW_READER, HDR_FLIP = "src/frame/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
+SELECTION, SPIKES, POLISH_TILE = "src/frame/selection.cpp", "src/after/spikes.cpp", "src/after/polish_tile.cpp"
+INFORMATION, INFORMATIVE = "src/run/information.cpp", "src/run/informative.cpp"
 SCENE = "src/scene/"
 BOTH = "Profiles/BothProfiles."
 
@@ -82,9 +83,9 @@ MUTANTS = [
            BOTH + "ScalesExactlyWithPowersOfTwo/*", "radiance scale: none"),
 
     # ---------------------------------------------------------------- 3. neighborhood
-    Mutant("sigma", TABLES, "box_width / 4.0", "box_width / 3.0",
+    Mutant("sigma", "src/plan/box.h", "box_width / 4.0", "box_width / 3.0",
            "*OffsetTable.IsTheTruncatedGaussianOfAQuarterBoxWidth/*", "draws: sigma is b / 3"),
-    Mutant("sigma_drawn", TABLES, "box_width / 4.0", "box_width / 3.0",
+    Mutant("sigma_drawn", "src/plan/box.h", "box_width / 4.0", "box_width / 3.0",
            "oracle spp8_paper draws", "draws: sigma is b / 3"),
     Mutant("offsets_toward_zero", TABLES, "static_cast<std::int8_t>(d)", "static_cast<std::int8_t>(d < 0 ? d + 1 : d)",
            "*OffsetTable.IsTheTruncatedGaussianOfAQuarterBoxWidth/*", "draws: negative offsets truncated"),
@@ -98,11 +99,11 @@ MUTANTS = [
            "oracle spp4_thesis neighbors", "draws: one attempt"),
     Mutant("one_redraw_more", PLAN, "static_cast<std::uint32_t>(settings.redraws) + 1", "static_cast<std::uint32_t>(settings.redraws) + 2",
            "Plan.AllowsOneAttemptMoreThanRedraws", "draws: one attempt too many"),
-    Mutant("draws_own_too", PLAN, "return std::max(size(samples), samples) - samples;", "return size(samples);",
+    Mutant("draws_own_too", SIZE, "return std::max(size(samples), samples) - samples;", "return size(samples);",
            "NeighborhoodSize.IsHalfTheBoxInTheThesisAndGrowsInThePaper", "draws: M instead of M - s"),
-    Mutant("paper_without_samples", PLAN, "std::uint64_t{box_area} * samples / 2", "std::uint64_t{box_area} / 2",
+    Mutant("paper_without_samples", SIZE, "std::uint64_t{box_area} * samples / 2", "std::uint64_t{box_area} / 2",
            "oracle spp4_paper draws", "draws: M of the paper without s"),
-    Mutant("limit_ignored", PLAN, "std::min<std::uint64_t>(wanted, limit)", "std::min<std::uint64_t>(wanted, most_neighbors)",
+    Mutant("limit_ignored", SIZE, "std::min<std::uint64_t>(wanted, limit)", "std::min<std::uint64_t>(wanted, most_neighbors)",
            "NeighborhoodSize.FollowsFactorAndLimit", "draws: --max-samples is not obeyed"),
     Mutant("choose_modulo", MATH, "return mul_hi(word, count);", "return word % count;",
            "oracle spp_varying_thesis neighbors", "draws: another sample of the pixel"),
@@ -269,7 +270,7 @@ MUTANTS = [
            "Scene.StopsOnRequest", "cancel: goes on"),
 
     # ---------------------------------------------------------------- result, tiles and crop
-    Mutant("scale_not_undone", DRIVER, "value / prepared.radiance_scale", "value",
+    Mutant("scale_not_undone", DRIVER, "value / prepared.facts.radiance_scale", "value",
            "oracle spp4_thesis image", "radiance scale: left in the image"),
     Mutant("weights_ignored", RESOLVE, "const bool weighted = !frame.weights.empty()", "const bool weighted = false",
            "Filter.WeightsSamplesInThePixelMean", "pixel mean: weights ignored"),
@@ -279,9 +280,9 @@ MUTANTS = [
            "oracle spp_varying_thesis image", "pixel mean: 0 / 0 without samples"),
     Mutant("tile_origin", BACKEND, "(first_x + i % across) * side", "(i % across) * side",
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "tiles: tile-relative pixel"),
-    Mutant("last_tile_lost", DRIVER, "y < end_y; y += height)", "y + height <= end_y; y += height)",
+    Mutant("last_tile_lost", "src/run/tiles.cpp", "y < end_y; y += height)", "y + height <= end_y; y += height)",
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "tiles: the last band is skipped"),
-    Mutant("crop_margin", PLAN, "(pass->box_width - 1) / 2", "(pass->box_width - 1) / 2 - 1",
+    Mutant("crop_margin", REGIONS, "box_reach(pass->box_width)", "box_reach(pass->box_width) - 1",
            BOTH + "GivesTheSamePixelsForACrop/*", "crop: margin one pixel short"),
 
     # ---------------------------------------------------------------- steps beyond the sources
@@ -297,9 +298,9 @@ MUTANTS = [
            "oracle block3_gaps bins", "statistics block: its last pixel measures"),
     Mutant("block_leader_moves", BACKEND, "std::find(pixels.begin(), pixels.end(), *leader) == pixels.end()", "false",
            "Filter.StatisticsBlockGivesTheSamePixelsForACrop", "statistics block: what was measured before is used"),
-    Mutant("block_tiles_with_gaps", DRIVER, "x += width)", "x += width + block)",
+    Mutant("block_tiles_with_gaps", "src/run/tiles.cpp", "x += width)", "x += width + block)",
            "Filter.StatisticsBlockGivesTheSameBitsForThreadsAndTiles", "statistics block: tiles leave pixels out"),
-    Mutant("block_out_of_range", PLAN, "s.statistics_block <= 16", "s.statistics_block <= 17",
+    Mutant("block_out_of_range", VALIDATE, "s.statistics_block <= 16", "s.statistics_block <= 17",
            "Filter.RefusesEffortThatCannotBeAndNamesIt", "statistics block: 17 is accepted"),
     Mutant("samples_all_measured", STATISTICS, "std::min(n.size(), plan.statistics_samples)", "n.size()",
            "oracle statistics_samples bins", "statistics samples: all neighbors are measured"),
@@ -315,11 +316,11 @@ MUTANTS = [
            "oracle neighbors_factor neighbors", "neighbors factor: tested after half a portion"),
     Mutant("spikes_not_carried_on", DRIVER, "if (plan_.spread_spikes)", "if (pass > 0 && plan_.spread_spikes)",
            "oracle spikes start", "spikes: not spread after the first pass"),
-    Mutant("spikes_near", "src/spikes.h", "spike_spread = 2", "spike_spread = 1",
+    Mutant("spikes_near", "src/plan/regions.h", "spike_spread = 2", "spike_spread = 1",
            "oracle spikes_varying image", "spikes: shared with the 3x3 pixels around them"),
     Mutant("spikes_left_out", DRIVER, "if (plan_.spread_spikes)", "if (false)",
            "Filter.StepsChangeTheImageOfTheTestFrame", "spikes: not spread"),
-    Mutant("spikes_margin", PLAN, "plan.spread_spikes ? spike_reach : 0", "plan.spread_spikes ? spike_spread : 0",
+    Mutant("spikes_margin", REGIONS, "plan.spread_spikes ? spike_reach : 0", "plan.spread_spikes ? spike_spread : 0",
            "Filter.StepsGiveTheSamePixelsForACrop", "spikes: a crop's margin one pixel short"),
     Mutant("spikes_share", SPIKES, "static_cast<float>(receivers)", "25.0F",
            "Spikes.AreFoundBeforeAnyIsSpread", "spikes: light is lost at the border"),
@@ -327,7 +328,7 @@ MUTANTS = [
            "Spikes.LoseAllTheirLightAmongNegativeNeighborsNotMore", "spikes: more is taken than there is"),
     Mutant("spikes_empty_pixels", SPIKES, "if (frame_.samples(pixel(u, v)) > 0) visit", "visit",
            "Spikes.LeaveOutEmptyPixelsAndRespectCountsAndWeights", "spikes: empty pixels get light"),
-    Mutant("polish_margin", PLAN, "plan.polish > 0 ? polish_reach : 0", "plan.polish > 0 ? polish_radius : 0",
+    Mutant("polish_margin", REGIONS, "plan.polish > 0 ? polish_reach : 0", "plan.polish > 0 ? polish_radius : 0",
            "Filter.StepsGiveTheSamePixelsForACrop", "polish: a crop's margin one pixel short"),
     Mutant("polish_border", POLISH_TILE, "places[x] = p[x] * q[x];", "places[x] = p[x] * q[x] + 1.0F;",
            "Polish.AveragesTwoPixelsByHand", "polish: patches outside the image count"),
@@ -337,7 +338,7 @@ MUTANTS = [
            "Polish.IsItsDefinition", "polish: noise of a guide counts as an edge"),
     Mutant("polish_empty_pixels", POLISH_TILE, "* valid[x];", "* (valid[x] + 1.0F);",
            "Polish.LeavesOutEmptyPixels", "polish: pixels without samples are averaged"),
-    Mutant("polish_floor", "src/polish.cpp", "count += 3;", "count += 1;",
+    Mutant("polish_floor", "src/after/polish.cpp", "count += 3;", "count += 1;",
            "Polish.HasAFloorOfAPartOfTheMeanRadiance", "polish: another floor"),
 
     # ---------------------------------------------------------------- files: merging and raw samples

@@ -9,6 +9,9 @@ NUMERIC = "kernels/numeric.h"
 NEIGHBORHOOD, STATISTICS = "kernels/neighborhood.cl", "kernels/statistics.cl"
 COORDINATES = "kernels/coordinates.cl"
 WEIGHTING, FILTER = "kernels/weighting.cl", "kernels/filter.cl"
+SAMPLES, PASSES, NETWORK = "kernels/network_samples.cl", "kernels/network_passes.cl", "kernels/network.cl"
+LAYERS, STEPS = "src/opencl/network_kernels.cpp", "src/opencl/estimate_steps.cpp"
+LEARNED = "conformance learned/scene/dof "
 DOF, PAPER = "conformance scene/dof/thesis ", "conformance scene/dof/paper "
 
 MUTANTS = [
@@ -95,4 +98,23 @@ MUTANTS = [
            "conformance explain/4spp explained", "one pair for all"),
     Mutant("cl_explained_samples", WEIGHTING, "share += weight[i] * (1.0f / lanes_total(slot->sums[(begin + i) * (1 + RPF_CARRIED)]));", "share += weight[i];",
            "conformance explain/4spp explained", "own samples with many neighbors count more"),
+
+    # ---------------------------------------------------------------- the learned estimator
+    Mutant("cl_seen", SAMPLES, "rows[RPF_SEEN_INPUTS + RPF_INPUT_BRIGHTNESS + i] = rpf_brightness(color);",
+           "rows[RPF_SEEN_INPUTS + RPF_INPUT_BRIGHTNESS + i] = rpf_brightness(color * 1.000001f);", LEARNED + "inputs", "another color"),
+    Mutant("cl_records", LAYERS, "r{}[columns[j]]", "r{}[columns[j] - 1]", LEARNED + "sample1", "the column before"),
+    Mutant("cl_moments", SAMPLES, "squares = fma(d, d, squares);\n  }\n  const float samples = (float)count;\n  float means[8]",
+           "squares += d * d;\n  }\n  const float samples = (float)count;\n  float means[8]", LEARNED + "pixel", "two roundings"),
+    Mutant("cl_border_cells", NETWORK, "line[k - stride] = line[k];", "line[k - stride] = 0.0f;", LEARNED + "down0", "zeros beside the frame"),
+    Mutant("cl_layer_order", LAYERS, "for (int ky = -1; ky <= 1; ++ky)", "for (int ky = 1; ky >= -1; --ky)", LEARNED + "down0", "rows upside down"),
+    Mutant("cl_halve", NETWORK, "sum += vload8(0, upper + at + stride);\n", "sum += vload8(0, upper + at);\n", LEARNED + "down1a", "a cell twice"),
+    Mutant("cl_coarse", LAYERS, "return (c + kx + 1) / 2;", "return (c + kx) / 2;", LEARNED + "up1a", "the coarse cell beside"),
+    Mutant("cl_learned_weight", SAMPLES, "float16 logit = output[RPF_WEIGHT_FEATURES];", "float16 logit = 0.0f;", LEARNED + "weights", "no bias"),
+    Mutant("cl_sums", SAMPLES, "total += weights[samples.first + s];", "total += weights[samples.first];", LEARNED + "sums", "the first sample for all"),
+    Mutant("cl_taps", PASSES, "total += row[t];", "total += t == 4 ? 0.0f : row[t];", LEARNED + "pass0", "a tap is not counted"),
+    Mutant("cl_margin", PASSES, "begin == 0 && x < RPF_MARGIN; ++x) row[x] = RPF_NOT_THERE", "begin == 0 && x < RPF_MARGIN; ++x) row[x] = 0.0f",
+           LEARNED + "pass0", "pixels beside the frame weigh"),
+    Mutant("cl_blend", PASSES, "rpf_blend(vload16(0, values))", "vload16(0, values)", LEARNED + "result", "the logit in place of the share"),
+    Mutant("cl_rows_kept", "src/opencl/row_pipeline.cpp", "first_read(read, step.done));\n}", "first_read(read, step.done) - 1);\n}",
+           "conformance learned/size/3x400 image", "a row less is kept"),
 ]

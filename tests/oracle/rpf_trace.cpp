@@ -7,9 +7,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>  // test data between C++ and Python
 
-#include "driver.h"
 #include "rpf/rpf.h"
 #include "rpf_math.h"
+#include "run/driver.h"
 
 namespace {
 
@@ -206,7 +206,7 @@ int run(const char* case_path, const char* trace_path) {
   const rpf::PreparedFrame prepared = rpf::prepare(samples, settings);
   trace["random"] = prepared.facts.variables.random_names;
   trace["features"] = prepared.facts.variables.feature_names;
-  trace["radiance_scale"] = prepared.radiance_scale;
+  trace["radiance_scale"] = prepared.facts.radiance_scale;
   trace["passes"] = json::array();
   const auto trace_pass = [&](rpf::Backend& backend, const Plan& plan, int pass) {
     const rpf::PassPlan& p = plan.passes[static_cast<std::size_t>(pass)];
@@ -214,7 +214,7 @@ int run(const char* case_path, const char* trace_path) {
     for (std::uint32_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel) {
       if (prepared.frame.samples(pixel) == 0) continue;
       const std::vector<float> start = own_colors(backend, plan, prepared.frame, pixel);
-      out["pixels"].push_back(write_pixel(plan, backend.trace(pass, pixel), start, prepared.radiance_scale));
+      out["pixels"].push_back(write_pixel(plan, backend.trace(pass, pixel), start, prepared.facts.radiance_scale));
     }
     trace["passes"].push_back(out);
   };

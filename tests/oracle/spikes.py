@@ -1,6 +1,6 @@
 """The step between passes that is not in the sources: light of single bright pixels is shared with those around them.
 
-Written from docs/deviations.md and the definition in src/spikes.h alone.
+Written from docs/deviations.md and the definition in src/after/spikes.h alone.
 """
 import numpy as np
 

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "explain/attribution.h"
+#include "frame/prepare.h"
 #include "rpf/explain.h"
 #include "scene/integrator.h"
 #include "scene/random.h"

@@ -71,6 +71,28 @@ SampleBuffer defocused_edge(const FrameOptions& options) {
   return samples;
 }
 
+SampleBuffer every_input(const FrameOptions& options) {
+  SampleBuffer samples = defocused_edge(options);
+  const std::vector<std::string> more = {"random.light.U",   "random.light.V",   "random.bsdf.U", "random.bsdf.V",
+                                         "feature.albedo.G", "feature.albedo.B", "feature.N2.X",  "feature.N2.Y",
+                                         "feature.N2.Z",     "feature.P2.X",     "feature.P2.Y",  "feature.P2.Z"};
+  for (const std::string& slot : more) add_channel(samples, slot, 0);
+  add_channel(samples, "feature.hit", 1);
+  Dice dice(options.seed + 1000);
+  for (std::size_t i = 0; i < samples.sample_count(); ++i) {
+    const bool hits = dice() < 0.9F, hits_again = hits && dice() < 0.7F;
+    for (const std::string& slot : more) {
+      const bool is_second = slot.find("2.") != std::string::npos;
+      value_of(samples, i, slot) = is_second && !hits_again ? 0.0F : dice();
+    }
+    if (hits) continue;
+    for (const char* slot :
+         {"feature.N.X", "feature.N.Y", "feature.N.Z", "feature.P.X", "feature.P.Y", "feature.P.Z", "feature.hit"})
+      value_of(samples, i, slot) = 0;
+  }
+  return samples;
+}
+
 std::string backend_under_test() {
   const char* name = std::getenv("RPF_TEST_BACKEND");
   return name == nullptr ? "cpu" : name;

@@ -33,6 +33,11 @@ struct FrameOptions {
 /// Slots: R G B film.X film.Y random.lens.U random.lens.V random.time feature.N.X/Y/Z feature.P.X/Y/Z feature.albedo.R.
 SampleBuffer defocused_edge(const FrameOptions& options = {});
 
+/// The same with everything that the learned estimator has an input for: also random.light.U/.V, random.bsdf.U/.V,
+/// feature.albedo.R/G/B, feature.hit, feature.N2.X/Y/Z, feature.P2.X/Y/Z. Some samples hit nothing, others nothing
+/// after the first hit.
+SampleBuffer every_input(const FrameOptions& options = {});
+
 /// The backend under test: RPF_TEST_BACKEND, or the reference. CMake registers the functional tests once for each.
 std::string backend_under_test();
 

@@ -7,6 +7,18 @@ namespace rpf::test::tolerance {
 /// rpf_exp against long double. Measured over all floats: 0.982; 1 is the promise of kernels/numeric.h.
 constexpr double exp_ulps = 1.0;
 
+/// rpf_log against long double, relative to max(|ln x|, 1/4). Measured over every 101st normal float: LOG_MEASURED.
+constexpr double log = 2e-7;
+
+/// A 3x3 convolution of up to 40 inputs as a chain of 360 fma in float, against double; values near 1.
+constexpr double convolution = 1e-5;
+
+/// A color that is the same everywhere, after four passes of 25 weighted terms in float.
+constexpr double estimated_constant = 2e-6;
+/// Least and largest of what is averaged against the average: some hundred roundings of 6e-8, relative to the largest
+/// magnitude within reach.
+constexpr double estimated_bound = 2e-5;
+
 /// Entries of the offset table per offset against the exact Gaussian: each side is rounded to whole entries.
 constexpr double offset_entries = 0.5;
 /// ... and the center takes up what rounding left over on both sides, half an entry for each of up to 254 offsets.
@@ -59,11 +71,11 @@ constexpr double flip_in_single_precision = 2e-6;
 /// HDR-FLIP of light in another unit: exposures near 10 stops are rounded to 2^-50, and FLIP has slopes below 1000.
 constexpr double exposure_rounding = 1e-11;
 
-/// Mean share of a group of random parameters in the noise of 96x54 pixels: what is subtracted for chance is some percent
-/// of each share. Measured with 16 samples a pixel: at most 0.025.
+/// Mean share of a group of random parameters in the noise of 96x54 pixels: what is subtracted for chance is some
+/// percent of each share. Measured with 16 samples a pixel: at most 0.025.
 constexpr double attributed_share = 0.04;
-/// Mean part of independent noise that is attributed nevertheless. Measured: 0.006, and 0.029 where no standard error is
-/// subtracted.
+/// Mean part of independent noise that is attributed nevertheless. Measured: 0.006, and 0.029 where no standard error
+/// is subtracted.
 constexpr double attributed_to_chance = 0.015;
 /// Mean standard deviation that is estimated on 96x54 pixels, relative: 20,736 coins determine theirs to 0.5 %.
 constexpr double estimated_noise = 0.02;

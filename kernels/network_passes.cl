@@ -1,0 +1,140 @@
+// The passes of the learned estimator and its result, for RPF_LANES pixels of a row at once.
+
+#define RPF_TAPS 5           // in a row
+#define RPF_NOT_THERE 1e30f  // an embedding value whose distance to any other is infinite
+#define RPF_PLACES(x) (RPF_MARGIN + (x))
+
+// Stores RPF_LANES pixels of an output of the head as what a pass weighs with: planes of embedding values, then of the
+// guides' products, then w_ii.
+static void store_weight(float16 logit, int value, int embedding, __global const float* guide, int guide_plane,
+                         __global float* out, int plane) {
+  const int g = value - embedding - 1;
+  if (g < 0)
+    vstore16(value < embedding ? rpf_embedding(logit) : rpf_own_weight(logit), 0,
+             out + (value < embedding ? value : embedding + RPF_GUIDES) * plane);
+  else if (g < RPF_GUIDES)
+    vstore16(rpf_bandwidth(logit) * vload16(0, guide + g * guide_plane), 0, out + (value - 1) * plane);
+}
+
+// `heads`: cells of so many values, in which a pass's outputs begin at 0.
+__kernel void embed(__global const float* heads, __global const float* guides, __global float* weights,
+                    const rpf_area area, const rpf_grid head_grid, const rpf_grid guide_grid, const rpf_grid grid,
+                    const int head_stride, const int embedding) {
+  const int plane = plane_of(&grid, embedding + RPF_GUIDES + 1), guide_plane = plane_of(&guide_grid, RPF_GUIDES);
+  for (int i = first_part(); i < end_part(&area); i += (int)get_global_size(0)) {
+    const int y = row_of_part(&area, i), begin = begin_of_part(&area, i), end = end_of_part(&area, i);
+    __global const float* cells = heads + row_at(&head_grid, y) + RPF_BORDER * head_stride;
+    __global const float* guide = guides + row_at(&guide_grid, y) + RPF_MARGIN;
+    __global float* row = weights + row_at(&grid, y);
+    for (int x = begin; x < end; x += RPF_LANES)
+      for (int first = 0; first <= embedding + RPF_GUIDES; first += RPF_LANES) {
+        float16 rows[RPF_LANES];
+        // Behind the last cell of a row it is read again.
+#pragma unroll
+        for (int l = 0; l < RPF_LANES; ++l)
+          rows[l] = vload16(0, cells + min(x + l, area.width - 1) * head_stride + first);
+        transpose(rows);
+#pragma unroll
+        for (int k = 0; k < RPF_LANES; ++k)
+          store_weight(rows[k], first + k, embedding, guide + x, guide_plane, row + RPF_PLACES(x), plane);
+      }
+    for (int x = 0; begin == 0 && x < RPF_MARGIN; ++x) row[x] = RPF_NOT_THERE;
+    for (int x = RPF_PLACES(area.width); end == area.width && x < plane; ++x) row[x] = RPF_NOT_THERE;
+  }
+}
+
+// Squared distances of RPF_LANES pixels from `own` on to those at five places of a row, then the weights.
+static void weigh_row(__global const float* own, __global const float* other, int terms, int plane, int dilation,
+                      float16* weights) {
+  float16 d0 = 0.0f, d1 = 0.0f, d2 = 0.0f, d3 = 0.0f, d4 = 0.0f;
+  for (int k = 0; k < terms; ++k) {
+    __global const float* o = other + k * plane;
+    const float16 e = vload16(0, own + k * plane);
+    const float16 t0 = e - vload16(0, o - 2 * dilation), t1 = e - vload16(0, o - dilation), t2 = e - vload16(0, o),
+                  t3 = e - vload16(0, o + dilation), t4 = e - vload16(0, o + 2 * dilation);
+    d0 = fma(t0, t0, d0);
+    d1 = fma(t1, t1, d1);
+    d2 = fma(t2, t2, d2);
+    d3 = fma(t3, t3, d3);
+    d4 = fma(t4, t4, d4);
+  }
+  weights[0] = rpf_exp(-d0);
+  weights[1] = rpf_exp(-d1);
+  weights[2] = rpf_exp(-d2);
+  weights[3] = rpf_exp(-d3);
+  weights[4] = rpf_exp(-d4);
+}
+
+// Adds five weighted values of a row to a sum.
+static float16 add_row(float16 sum, const float16* w, __global const float* value, int dilation) {
+  sum = fma(w[0], vload16(0, value - 2 * dilation), sum);
+  sum = fma(w[1], vload16(0, value - dilation), sum);
+  sum = fma(w[2], vload16(0, value), sum);
+  sum = fma(w[3], vload16(0, value + dilation), sum);
+  return fma(w[4], vload16(0, value + 2 * dilation), sum);
+}
+
+__kernel void filter_pass(__global const float* weights, __global const float* in, __global float* out,
+                          const rpf_network_pass p) {
+  const int plane = plane_of(&p.weights, p.embedding + RPF_GUIDES + 1), in_plane = plane_of(&p.in, p.values);
+  for (int i = first_part(); i < end_part(&p.area); i += (int)get_global_size(0)) {
+    const int y = row_of_part(&p.area, i), begin = begin_of_part(&p.area, i), end = end_of_part(&p.area, i);
+    // Rows of taps that are there: first_tap .. end_tap - 1 of five.
+    const int first_tap = max(0, RPF_PASS_REACH - y / p.dilation);
+    const int end_tap = min(RPF_TAPS, RPF_PASS_REACH + (p.area.height - 1 - y) / p.dilation + 1);
+    const int first_y = y + (first_tap - RPF_PASS_REACH) * p.dilation;
+    __global float* result = out + row_at(&p.out, y);
+    for (int x = begin; x < end; x += RPF_LANES) {
+      __global const float* own = weights + row_at(&p.weights, y) + RPF_PLACES(x);
+      float16 w[RPF_TAPS * RPF_TAPS], total = 0.0f;
+      for (int j = first_tap; j < end_tap; ++j) {
+        const int other = first_y + (j - first_tap) * p.dilation;
+        float16* row = w + RPF_TAPS * j;
+        weigh_row(own, weights + row_at(&p.weights, other) + RPF_PLACES(x), p.embedding + RPF_GUIDES, plane, p.dilation,
+                  row);
+        if (other == y) row[RPF_PASS_REACH] = vload16(0, own + (p.embedding + RPF_GUIDES) * plane);
+        for (int t = 0; t < RPF_TAPS; ++t) total += row[t];
+      }
+      const float16 inverse = 1.0f / total;
+      for (int k = 0; k < p.values; ++k) {
+        float16 sum = 0.0f;
+        for (int j = first_tap; j < end_tap; ++j)
+          sum = add_row(sum, w + RPF_TAPS * j,
+                        in + row_at(&p.in, first_y + (j - first_tap) * p.dilation) + k * in_plane + RPF_PLACES(x),
+                        p.dilation);
+        vstore16(sum * inverse, 0, result + k * in_plane + RPF_PLACES(x));
+      }
+    }
+    close_planes(result, in_plane, p.values, begin, end, p.area.width);
+  }
+}
+
+// `sums` and `albedo` after their passes, `heads`: the first outputs of the head.
+__kernel void finish(__global const float* sums, __global const float* albedo, __global const float* heads,
+                     __global float* out, const rpf_area area, const rpf_grid sum_grid, const rpf_grid albedo_grid,
+                     const rpf_grid head_grid, const rpf_grid grid, const int head_stride, const int carried,
+                     const int has_albedo) {
+  const int plane = plane_of(&sum_grid, (int)rpf_sums((uint)carried)), out_plane = plane_of(&grid, carried);
+  const int albedo_plane = plane_of(&albedo_grid, RPF_ALBEDO_SUMS);
+  for (int i = first_part(); i < end_part(&area); i += (int)get_global_size(0)) {
+    const int y = row_of_part(&area, i), begin = begin_of_part(&area, i), end = end_of_part(&area, i);
+    __global const float* blends = heads + row_at(&head_grid, y) + RPF_BORDER * head_stride + RPF_HEAD_BLEND;
+    for (int x = begin; x < end; x += RPF_LANES) {
+      __global const float* sum = sums + row_at(&sum_grid, y) + RPF_PLACES(x);
+      __global const float* base = albedo + row_at(&albedo_grid, y) + RPF_PLACES(x);
+      float values[RPF_LANES];
+      for (int l = 0; l < RPF_LANES; ++l) values[l] = blends[min(x + l, area.width - 1) * head_stride];
+      const float16 blend = rpf_blend(vload16(0, values)), weight = vload16(0, sum + RPF_SUM_WEIGHT * plane),
+                    covered = vload16(0, base + 3 * albedo_plane);
+      for (int k = 0; k < carried; ++k) {
+        const int from = k < 3 ? RPF_SUM_RADIANCE + k : RPF_SUM_OTHERS + k - 3;
+        const float16 carried_sum = vload16(0, sum + from * plane);
+        float16 value = rpf_over_weight(carried_sum, weight);
+        if (has_albedo && k < 3)
+          value = rpf_blended(value, carried_sum, vload16(0, sum + (RPF_SUM_BASE + k) * plane),
+                              vload16(0, base + k * albedo_plane), covered, blend);
+        vstore16(value, 0, out + row_at(&grid, y) + k * out_plane + RPF_PLACES(x));
+      }
+    }
+  }
+}

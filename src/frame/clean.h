@@ -1,0 +1,31 @@
+// What cannot be used is left out or marked as missing before anything is computed (algorithm.md, section 1).
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "rpf/filter.h"
+#include "rpf/samples.h"
+
+namespace rpf {
+
+/// What stands in the place of a value that is missing.
+constexpr float missing = std::numeric_limits<float>::quiet_NaN();
+
+/// Where the slots that preparing a frame needs stand in a record.
+struct Columns {
+  std::size_t color[3] = {0, 0, 0}, film[2] = {0, 0};
+  std::optional<std::size_t> alpha, weight, hit;
+  std::vector<std::size_t> normal;     ///< of the first hit: 3 columns, or none
+  std::vector<std::size_t> position;   ///< of the first hit: the components there are
+  std::vector<std::size_t> variables;  ///< random parameters and features: all whose missing values are marked
+};
+
+Columns find_columns(const SampleLayout& layout);
+
+/// Leaves out samples whose color is not finite or whose weight is none, and marks unusable features, random parameters
+/// and film positions as missing (NaN). The buffer shrinks in place. Says what was found, and where first.
+std::vector<InputNote> clean(SampleBuffer& samples, const Columns& columns, bool clamp_negative);
+
+}  // namespace rpf

@@ -1,0 +1,165 @@
+// Joins renderings of one frame, sample by sample.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "rpf/error.h"
+#include "rpf/samples.h"
+
+namespace rpf {
+namespace {
+
+[[noreturn]] void reject(const std::string& message) { throw Error(ErrorKind::input, message); }
+
+/// The slots of `a` that `b` does not have.
+std::vector<std::string> missing_slots(const SampleLayout& a, const SampleLayout& b) {
+  std::vector<std::string> missing;
+  for (const std::string& slot : a.slots)
+    if (!b.find(slot)) missing.push_back(slot);
+  return missing;
+}
+
+void check_slots(const SamplePart& whole, const SamplePart& lacking) {
+  const std::vector<std::string> missing = missing_slots(whole.samples.layout, lacking.samples.layout);
+  if (missing.empty()) return;
+  reject(
+      fmt::format("\"{}\" has no slot {}, but \"{}\" has; equal slots are expected: render both with the same channels "
+                  "or leave it out of all with --map {}=",
+                  lacking.name, fmt::join(missing, ", "), whole.name, missing.front()));
+}
+
+void check_window(const SamplePart& first, const SamplePart& other) {
+  const Window &a = first.samples.data_window, &b = other.samples.data_window;
+  if (!(a == b))
+    reject(
+        fmt::format("\"{}\" has the data window {}x{}{:+}{:+}, but \"{}\" has {}x{}{:+}{:+}; renderings of one frame "
+                    "are expected",
+                    other.name, b.width, b.height, b.x, b.y, first.name, a.width, a.height, a.x, a.y));
+}
+
+std::string seeds_of(const SampleBuffer& samples) {
+  for (const char* name : {seeds_attribute, seed_attribute}) {
+    const auto found = samples.metadata.find(name);
+    if (found == samples.metadata.end()) continue;
+    if (const auto* text = std::get_if<std::string>(&found->second)) return *text;
+    if (const auto* number = std::get_if<std::int32_t>(&found->second)) return std::to_string(*number);
+  }
+  return "?";
+}
+
+/// Whether one of the pixel's samples in `b` is the pixel's first one in `a`, bit for bit.
+bool repeats_first(const SampleBuffer& a, const SampleBuffer& b, std::size_t pixel) {
+  const float* first = a.record(a.first_sample[pixel]);
+  for (std::size_t s = b.first_sample[pixel]; s < b.first_sample[pixel + 1]; ++s)
+    if (std::memcmp(first, b.record(s), a.layout.size() * sizeof(float)) == 0) return true;
+  return false;
+}
+
+/// Whether every pixel shares a sample: a file merged with itself, with a merge that holds it, or with more samples of
+/// the same seed. Other renderings differ in the first pixel, so this costs nothing.
+bool repeats(const SampleBuffer& a, const SampleBuffer& b) {
+  bool any = false;
+  for (std::size_t pixel = 0; pixel < a.data_window.pixel_count(); ++pixel) {
+    const bool in_both =
+        a.first_sample[pixel] < a.first_sample[pixel + 1] && b.first_sample[pixel] < b.first_sample[pixel + 1];
+    if (!in_both) continue;
+    if (!repeats_first(a, b, pixel) && !repeats_first(b, a, pixel)) return false;
+    any = true;
+  }
+  return any;
+}
+
+void check_repetition(const SamplePart& a, const SamplePart& b) {
+  if (!repeats(a.samples, b.samples)) return;
+  reject(
+      fmt::format("\"{}\" repeats samples of \"{}\" in every pixel (seeds {} and {}), which would lower no noise; "
+                  "render it with another seed",
+                  b.name, a.name, seeds_of(b.samples), seeds_of(a.samples)));
+}
+
+/// The records of a buffer in the order of another layout that has the same slots.
+void reorder(SampleBuffer& samples, const SampleLayout& layout) {
+  if (samples.layout.slots == layout.slots) return;
+  std::vector<std::size_t> columns;
+  for (const std::string& slot : layout.slots) columns.push_back(*samples.layout.find(slot));
+  std::vector<float> record(layout.size());
+  for (std::size_t s = 0; s < samples.sample_count(); ++s) {
+    std::copy_n(samples.record(s), record.size(), record.begin());
+    for (std::size_t c = 0; c < columns.size(); ++c) samples.record(s)[c] = record[columns[c]];
+  }
+  samples.layout = layout;
+}
+
+void check_parts(std::vector<SamplePart>& parts) {
+  if (parts.empty()) throw Error(ErrorKind::usage, "merge_samples: one or more sample buffers are expected");
+  std::uint64_t total = 0;
+  for (SamplePart& part : parts) {
+    part.samples.validate();
+    check_window(parts.front(), part);
+    check_slots(parts.front(), part);
+    check_slots(part, parts.front());
+    reorder(part.samples, parts.front().samples.layout);
+    total += part.samples.sample_count();
+  }
+  if (total > most_samples_of_frame)
+    reject(fmt::format("\"{}\" and the others hold {} samples, more than the {} that one buffer takes; merge fewer",
+                       parts.front().name, total, most_samples_of_frame));
+  for (std::size_t b = 1; b < parts.size(); ++b)
+    for (std::size_t a = 0; a < b; ++a) check_repetition(parts[a], parts[b]);
+}
+
+Metadata merged_metadata(const std::vector<SamplePart>& parts) {
+  Metadata metadata = parts.front().samples.metadata;
+  if (parts.size() == 1) return metadata;
+  std::string seeds;
+  for (const SamplePart& part : parts) seeds += (seeds.empty() ? "" : " ") + seeds_of(part.samples);
+  metadata.erase(seed_attribute);
+  metadata[seeds_attribute] = seeds;
+  return metadata;
+}
+
+std::vector<std::uint32_t> merged_offsets(const std::vector<SamplePart>& parts) {
+  std::vector<std::uint32_t> offsets(parts.front().samples.first_sample.size(), 0);
+  for (const SamplePart& part : parts)
+    for (std::size_t p = 0; p < offsets.size(); ++p) offsets[p] += part.samples.first_sample[p];
+  return offsets;
+}
+
+/// Copies the samples of a part behind what `next` says is filled of each pixel.
+void place(const SampleBuffer& part, std::vector<std::uint32_t>& next, SampleBuffer& merged) {
+  for (std::size_t p = 0; p < next.size(); ++p) {
+    const std::uint32_t count = part.first_sample[p + 1] - part.first_sample[p];
+    std::copy_n(part.record(part.first_sample[p]), count * merged.layout.size(), merged.record(next[p]));
+    next[p] += count;
+  }
+}
+
+}  // namespace
+
+SampleBuffer merge_samples(std::vector<SamplePart> parts) {
+  check_parts(parts);
+  SampleBuffer merged;
+  merged.data_window = parts.front().samples.data_window;
+  merged.display_window = parts.front().samples.display_window;
+  merged.layout = parts.front().samples.layout;
+  merged.metadata = merged_metadata(parts);
+  merged.first_sample = merged_offsets(parts);
+  merged.values.resize(merged.sample_count() * merged.layout.size());
+  std::vector<std::uint32_t> next(merged.first_sample.begin(), merged.first_sample.end() - 1);
+  for (SamplePart& part : parts) {
+    place(part.samples, next, merged);
+    part.samples = {};  // gives its memory back
+  }
+  return merged;
+}
+
+std::uint64_t merging_bytes(std::uint64_t pixels, std::uint64_t samples, std::size_t slots, std::size_t parts) {
+  constexpr std::uint64_t word = 4;
+  const std::uint64_t offsets = (pixels + 1) * (parts + 2);  // of the parts, of the result, of what is filled
+  return word * (2 * samples * slots + offsets);
+}
+
+}  // namespace rpf

@@ -1,0 +1,53 @@
+// The learned estimator on a device, for one window.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "opencl/estimate_steps.h"
+#include "opencl/sample_stage.h"
+
+namespace rpf {
+
+class EstimateRun {
+ public:
+  /// Of rows first .. end - 1 of the window. `items`: work-items at once. Where `keep_all` is set, for trace().
+  EstimateRun(Session& session, const NetworkProgram& program, const EstimateJob& job, int first, int end,
+              std::size_t items, bool keep_all);
+
+  /// The result, columns x .. x + width - 1 of the window: [pixel][carried].
+  std::vector<float> run(int x, int width, const EstimateProgress& progress);
+  /// All stages (estimate_plan.h).
+  std::vector<EstimateStage> trace();
+
+ private:
+  using Part = std::function<void(double share)>;
+
+  void allocate();
+  void run_step(const EstimateStep& step, int first, int end, const Part& part);
+  void run_layer(const EstimateStep& step, const DeviceLayer& layer, int first, int end);
+  void run_halve(const EstimateStep& step, int first, int end);
+  void run_embed(const EstimateStep& step, int first, int end);
+  void run_pass(const EstimateStep& step, int first, int end);
+  void run_finish(const EstimateStep& step, int first, int end);
+  template <typename... Values>
+  void launch(cl::Kernel& kernel, const Values&... values);
+  kernel::rpf_area area(const EstimateStep& step, int first, int end) const;
+  const DeviceGrid& grid(int number) const { return grids_[static_cast<std::size_t>(number)]; }
+  void collect(int first, int end, int x, int width, std::vector<float>& pixels);
+  std::vector<float> values_of(int grid);
+  EstimateStage stage(int grid, const std::string& name);
+  EstimateStage head_stage();
+
+  Session& session_;
+  const NetworkProgram& program_;
+  EstimateJob job_;
+  std::size_t items_;
+  SampleTrace sample_trace_;
+  EstimateSteps steps_;
+  std::vector<DeviceGrid> grids_;
+  SampleStage samples_;
+  cl::Kernel halve_, embed_, filter_pass_, finish_;
+};
+
+}  // namespace rpf

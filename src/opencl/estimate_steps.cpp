@@ -1,0 +1,169 @@
+#include "opencl/estimate_steps.h"
+
+#include <algorithm>
+
+#include "network_launch.h"
+#include "opencl/network_kernels.h"
+
+namespace rpf {
+namespace {
+
+using Kind = EstimateStep::Kind;
+using kernel::uint;
+
+/// Rows that a step makes at once: enough work for a launch, and little enough that what one step writes is still in
+/// the processor's caches for the next. Passes read many rows around, so that few of them at once would be read over
+/// and over.
+constexpr int cells_at_once = 16384, most_rows_at_once = 64, least_rows_at_once = 8;
+
+int rows_at_once(EstimateStep::Kind kind, int width, int level) {
+  if (kind == EstimateStep::Kind::pass) return most_rows_at_once;
+  return std::clamp(cells_at_once / width, least_rows_at_once,
+                    std::max(most_rows_at_once >> level, least_rows_at_once));
+}
+
+int whole(int count, int unit) { return (count + unit - 1) / unit * unit; }
+
+double products(const NetworkLayer& layer) { return static_cast<double>(layer.inputs) * layer.outputs * layer.taps; }
+
+/// Builds the lists.
+class Builder {
+ public:
+  Builder(EstimateSteps& steps, const EstimatePlan& plan, const Window& window, double samples)
+      : out_(steps), plan_(plan), network_(*plan.network), window_(window), samples_(samples / window.height) {}
+
+  /// `whole_head`: also what the result does not need.
+  void build(bool whole_head) {
+    const int last = layers(see());
+    out_.heads = head(last, EstimateStep::before_passes);
+    const int sums = make(Kind::sum, 0, {out_.heads}, planes("sums", sum_count()), 0, samples_ * sample_work() * 1.1);
+    const int filtered = passes(last, sums, 0, RPF_COLOR_PASSES);
+    const int albedo = plan_.has_albedo ? passes(last, out_.albedo, RPF_COLOR_PASSES, RPF_ALBEDO_PASSES) : out_.albedo;
+    EstimateGrid result = planes("result", static_cast<int>(plan_.carried));
+    std::vector<int> read = {filtered, albedo, out_.heads};
+    for (int pass = RPF_COLOR_PASSES; whole_head && !plan_.has_albedo && pass < RPF_NETWORK_PASSES; ++pass)
+      read.push_back(head(last, pass));
+    out_.result = make(Kind::finish, 0, read, result, 0, 30.0 * window_.width);
+  }
+
+ private:
+  int sum_count() const { return static_cast<int>(kernel::rpf_sums(static_cast<uint>(plan_.carried))); }
+  double sample_work() const { return products(network_.sample1()) + products(network_.sample2()) + 500; }
+
+  int size_at(int size, int level) const { return (size + (1 << level) - 1) >> level; }
+  EstimateGrid cells(const std::string& name, int values, int level) const {
+    return {name, size_at(window_.width, level), size_at(window_.height, level), values, padded(values), false};
+  }
+  EstimateGrid planes(const std::string& name, int values) const {
+    return {name, window_.width, window_.height, values, values, true};
+  }
+
+  int add(const EstimateGrid& grid) {
+    out_.grids.push_back(grid);
+    return out_.pipeline.add_grid(grid.height);
+  }
+
+  static int reach(Kind kind, int number, const Network& network) {
+    if (kind == Kind::layer) return network.layers[static_cast<std::size_t>(number)].taps == 9 ? 1 : 0;
+    return kind == Kind::pass ? RPF_PASS_REACH * kernel::rpf_dilation(static_cast<uint>(number)) : 0;
+  }
+
+  int make(Kind kind, int number, const std::vector<int>& in, const EstimateGrid& grid, int level, double row_work) {
+    return make_all(kind, number, in, {add(grid)}, level, row_work);
+  }
+
+  /// Returns the first grid.
+  int make_all(Kind kind, int number, const std::vector<int>& in, const std::vector<int>& out, int level,
+               double row_work) {
+    std::vector<RowPipeline::Read> reads;
+    for (const int grid : in) {
+      const bool coarser = kind == Kind::layer && in.size() > 1 && grid == in.front();
+      reads.push_back({grid, reach(kind, number, network_), kind == Kind::halve ? 1 : coarser ? -1 : 0});
+    }
+    const int width = out_.grids[static_cast<std::size_t>(out.front())].width;
+    out_.pipeline.add_step(out, reads, rows_at_once(kind, width, level));
+    out_.steps.push_back({kind, number, level, in, out, row_work});
+    return out.front();
+  }
+
+  int see() {
+    const int pixel = add(cells("pixel", network_.enter().inputs, 0)), guides = add(planes("guides", RPF_GUIDES));
+    out_.albedo = add(planes("albedo", RPF_ALBEDO_SUMS));
+    guides_ = guides;
+    return make_all(Kind::see, 0, {}, {pixel, guides, out_.albedo}, 0, samples_ * sample_work());
+  }
+
+  int layer(const NetworkLayer& layer, const std::vector<int>& in, int level) {
+    const EstimateGrid grid = cells(layer.name, layer.outputs, level);
+    return make(Kind::layer, static_cast<int>(&layer - network_.layers.data()), in, grid, level,
+                grid.width * products(layer));
+  }
+
+  int layers(int pixel) {
+    std::vector<int> levels = {layer(network_.down(0, false), {layer(network_.enter(), {pixel}, 0)}, 0)};
+    for (int l = 1; l < network_.levels(); ++l) {
+      const int channels = network_.channels[static_cast<std::size_t>(l - 1)];
+      const int half = make(Kind::halve, 0, {levels.back()}, cells("", channels, l), l, 0);
+      levels.push_back(layer(network_.down(l, true), {layer(network_.down(l, false), {half}, l)}, l));
+    }
+    int last = levels.back();
+    for (int l = network_.levels() - 2; l >= 0; --l)
+      last = layer(network_.up(l, true), {layer(network_.up(l, false), {last, levels[static_cast<std::size_t>(l)]}, l)},
+                   l);
+    return last;
+  }
+
+  int head(int last, int pass) {
+    const int values = pass < 0 ? RPF_CONTEXT + 1 : network_.embedding + 1 + RPF_GUIDES;
+    return make(Kind::head, pass, {last}, cells("", values, 0), 0, 1.0 * window_.width * network_.channels[0] * values);
+  }
+
+  int passes(int last, int values, int first, int count) {
+    for (int pass = first; pass < first + count; ++pass) {
+      const int terms = network_.embedding + RPF_GUIDES, kept = out_.grids[static_cast<std::size_t>(values)].values;
+      const int weights =
+          make(Kind::embed, pass, {head(last, pass), guides_}, planes("", terms + 1), 0, 10.0 * window_.width * terms);
+      values = make(Kind::pass, pass, {weights, values}, planes("pass" + std::to_string(pass), kept), 0,
+                    25.0 * window_.width * (terms + 15 + kept));
+    }
+    return values;
+  }
+
+  EstimateSteps& out_;
+  const EstimatePlan& plan_;
+  const Network& network_;
+  Window window_;
+  double samples_;  ///< a row
+  int guides_ = 0;
+};
+
+}  // namespace
+
+int EstimateGrid::pitch() const {
+  if (!planes) return stored * (whole(width, RPF_CELLS) + 2 * RPF_BORDER);
+  // An odd number of cache lines: planes that are powers of two apart would share a few sets of the cache.
+  const int lines = whole(width, RPF_LANES) / RPF_LANES + 2 * RPF_MARGIN / RPF_LANES;
+  return stored * RPF_LANES * (lines % 2 == 0 ? lines + 1 : lines);
+}
+
+EstimateSteps::EstimateSteps(const EstimatePlan& plan, const Window& window, double samples, int first, int end,
+                             bool keep_all) {
+  Builder(*this, plan, window, samples).build(keep_all);
+  pipeline.plan(result, first, end, keep_all);
+}
+
+double EstimateSteps::work() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) sum += steps[i].row_work * pipeline.made(static_cast<int>(i));
+  return sum;
+}
+
+std::uint64_t EstimateSteps::bytes() const {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < grids.size(); ++i)
+    sum += sizeof(float) * static_cast<std::uint64_t>(grids[i].pitch()) *
+           static_cast<std::uint64_t>(pipeline.rows(static_cast<int>(i)));
+  return sum;
+}
+
+}  // namespace rpf

@@ -1,0 +1,48 @@
+// The learned estimator as steps over grids of rows: plain data, in the order of docs/network.md.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "learned/estimate_plan.h"
+#include "opencl/row_pipeline.h"
+
+namespace rpf {
+
+/// Values of every cell of a level.
+struct EstimateGrid {
+  std::string name;
+  int width = 0, height = 0;
+  int values = 0;       ///< that mean something
+  int stored = 0;       ///< floats a cell, or planes
+  bool planes = false;  ///< [row][plane][cell], RPF_MARGIN around; else [row][cell][value], RPF_BORDER around
+
+  int pitch() const;  ///< floats a row
+};
+
+struct EstimateStep {
+  enum class Kind { see, layer, halve, head, sum, embed, pass, finish };
+  Kind kind = Kind::layer;
+  int number = 0;            ///< of the layer in the network, or of the pass; the head for samples is before_passes
+  int level = 0;             ///< of what it makes
+  std::vector<int> in, out;  ///< grids
+  double row_work = 0;       ///< multiply-adds a row, about
+  static constexpr int before_passes = -1;  ///< of a head: context and blend
+};
+
+/// All steps over a window, with the rows that are kept.
+struct EstimateSteps {
+  std::vector<EstimateGrid> grids;
+  std::vector<EstimateStep> steps;
+  RowPipeline pipeline;
+  int heads = 0, albedo = 0, result = 0;  ///< grids: before the passes; of the albedo before its passes; of the result
+
+  /// Plans the rows first .. end - 1 of a window with so many samples.
+  EstimateSteps(const EstimatePlan& plan, const Window& window, double samples, int first, int end, bool keep_all);
+
+  double work() const;          ///< multiply-adds in all, about
+  std::uint64_t bytes() const;  ///< of all grids
+};
+
+}  // namespace rpf

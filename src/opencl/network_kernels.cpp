@@ -1,0 +1,156 @@
+#include "opencl/network_kernels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "network_launch.h"
+
+namespace rpf {
+namespace {
+
+/// Writes one kernel.
+class LayerText {
+ public:
+  LayerText(const LayerShape& shape, const Blocking& blocking) : shape_(shape) {
+    const int outputs = padded(shape.outputs);
+    lanes_ = outputs % blocking.lanes == 0 ? blocking.lanes : 8;
+    const int vectors = outputs / lanes_;
+    // A vector of weights each, and one with an input in all lanes.
+    const auto fit = [&](int cells) { return std::max((blocking.registers - 1) / (cells + 1), 1); };
+    const int most = vectors <= fit(RPF_CELLS) ? fit(RPF_CELLS) : fit(RPF_CELLS / 2);
+    const int groups = (vectors + most - 1) / most, largest = (vectors + groups - 1) / groups;
+    cells_ = largest <= fit(RPF_CELLS) ? RPF_CELLS : RPF_CELLS / 2;
+    for (int first = 0; first < vectors; first += largest)
+      groups_.push_back({first * lanes_, std::min(largest, vectors - first)});
+  }
+
+  std::string text() {
+    line("__kernel void {}(__global const float* coarse, __global const float* own, __global const float* weights,",
+         shape_.name());
+    line("    __global const float* bias, __global float* out, {}const rpf_layer l) {{",
+         shape_.records ? "__global const int* columns, " : "");
+    line("  for (int i = first_part(); i < end_part(&l.area); i += (int)get_global_size(0)) {{");
+    line(
+        "    const int y = row_of_part(&l.area, i), begin = begin_of_part(&l.area, i), end = end_of_part(&l.area, i);");
+    line("    __global float* line = out + row_at(&l.out, y) + {};", border() * shape_.out_stride);
+    for (const Group& group : groups_) {
+      line("    for (int x = begin; x < end; x += {}) {{", cells_);
+      sums(group);
+      line("    }}");
+    }
+    if (shape_.border) line("    close_row(line, {}, begin, end, l.area.width);", shape_.out_stride);
+    line("  }}");
+    line("}}");
+    return text_;
+  }
+
+ private:
+  struct Group {
+    int first, vectors;  ///< first output
+  };
+
+  template <typename... Values>
+  void line(const std::string& format, const Values&... values) {
+    text_ += fmt::format(fmt::runtime(format), values...) + "\n";
+  }
+
+  int border() const { return shape_.border ? RPF_BORDER : 0; }
+
+  template <typename Body>
+  void for_all(const Group& group, Body body) {
+    for (int c = 0; c < cells_; ++c)
+      for (int v = 0; v < group.vectors; ++v) body(c, v, group.first + v * lanes_);
+  }
+
+  /// All outputs of a group for the cells from x on.
+  void sums(const Group& group) {
+    for_all(group, [&](int c, int v, int output) {
+      line("      float{} a{}_{} = vload{}(0, bias + {});", lanes_, c, v, lanes_, output);
+    });
+    line("      __global const float* w = weights + {};", group.first);
+    if (shape_.records) {
+      add_record_inputs(group);
+    } else if (shape_.taps == 1) {
+      line("      __global const float* s = own + row_at(&l.own, y) + (x + {}) * {};", border(), shape_.own_stride);
+      add_inputs(group, "s", std::to_string(shape_.own), shape_.own_stride, [](int c) { return c; });
+    } else {
+      line("      for (int ky = -1; ky <= 1; ++ky) {{");
+      line("      const int row = clamp(y + ky, 0, l.area.height - 1);");
+      line("      __global const float* s = own + row_at(&l.own, row) + x * {};", shape_.own_stride);
+      add_row(group);
+      line("      }}");
+    }
+    for_all(group, [&](int c, int v, int output) {
+      line(shape_.leaky ? "      vstore{}(rpf_leaky(a{}_{}), 0, line + x * {} + {});"
+                        : "      vstore{}(a{}_{}, 0, line + x * {} + {});",
+           lanes_, c, v, shape_.out_stride, c * shape_.out_stride + output);
+    });
+  }
+
+  /// The three columns of a row of a convolution. Cell c of column kx is c + kx cells from s on: the border is one.
+  void add_row(const Group& group) {
+    if (shape_.coarse > 0)
+      line("      __global const float* t = coarse + row_at(&l.coarse, row >> 1) + (x >> 1) * {};",
+           shape_.coarse_stride);
+    else if (shape_.own_stride == shape_.own) {  // the inputs of the three columns lie one after another
+      add_inputs(group, "s", std::to_string(3 * shape_.own), shape_.own_stride, [](int c) { return c; });
+      return;
+    }
+    for (int kx = 0; kx < 3; ++kx) {
+      if (shape_.coarse > 0)
+        add_inputs(group, "t", std::to_string(shape_.coarse), shape_.coarse_stride,
+                   [=](int c) { return (c + kx + 1) / 2; });
+      add_inputs(group, "s", std::to_string(shape_.own), shape_.own_stride, [=](int c) { return c + kx; });
+    }
+  }
+
+  /// Of samples: what is computed of them, then columns of their records.
+  void add_record_inputs(const Group& group) {
+    line("      __global const float* t = coarse + row_at(&l.coarse, y) + x * {};", shape_.coarse_stride);
+    add_inputs(group, "t", std::to_string(shape_.coarse), shape_.coarse_stride, [](int c) { return c; });
+    for (int c = 0; c < cells_; ++c)
+      line("      __global const float* r{} = own + record_at(&l.own, y, x + {});", c, c);
+    add_inputs_at(group, "l.inputs", [](int c) { return fmt::format("r{}[columns[j]]", c); });
+  }
+
+  /// A loop over inputs; `place(c)`: where those of cell c begin, in cells from `source` on.
+  template <typename Place>
+  void add_inputs(const Group& group, const char* source, const std::string& inputs, int stride, Place place) {
+    add_inputs_at(group, inputs, [&](int c) { return fmt::format("{}[{} + j]", source, place(c) * stride); });
+  }
+
+  /// `input(c)`: the text of input j of cell c.
+  template <typename Input>
+  void add_inputs_at(const Group& group, const std::string& inputs, Input input) {
+    line("      for (int j = 0; j < {}; ++j, w += {}) {{", inputs, padded(shape_.outputs));
+    for (int v = 0; v < group.vectors; ++v)
+      line("        const float{} w{} = vload{}(0, w + {});", lanes_, v, lanes_, v * lanes_);
+    for (int c = 0; c < cells_; ++c) {
+      line("        const float{} b{} = {};", lanes_, c, input(c));
+      for (int v = 0; v < group.vectors; ++v) line("        a{}_{} = fma(b{}, w{}, a{}_{});", c, v, c, v, c, v);
+    }
+    line("      }}");
+  }
+
+  const LayerShape& shape_;
+  int lanes_ = 8, cells_ = RPF_CELLS;
+  std::vector<Group> groups_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string LayerShape::name() const {
+  const std::string inputs = records      ? "records"
+                             : taps == 1  ? fmt::format("dense_{}", own)
+                             : coarse > 0 ? fmt::format("up_{}_{}", coarse, own)
+                                          : fmt::format("convolution_{}", own);
+  return fmt::format("{}_{}{}{}_{}_{}", inputs, outputs, leaky ? "_leaky" : "", border ? "" : "_samples", own_stride,
+                     out_stride);
+}
+
+std::string layer_text(const LayerShape& shape, const Blocking& blocking) { return LayerText(shape, blocking).text(); }
+
+}  // namespace rpf

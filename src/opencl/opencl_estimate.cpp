@@ -1,0 +1,40 @@
+// The learned estimator on a device.
+#include "opencl/estimate_run.h"
+#include "opencl/opencl_backend.h"
+
+namespace rpf {
+
+void OpenClBackend::load_estimate(const Frame& frame, std::vector<float> colors, const EstimatePlan& plan) {
+  frame_ = &frame;
+  estimate_plan_ = &plan;
+  colors_ = std::move(colors);
+  network_ = on_device("preparing the network", [&] {
+    return std::make_unique<NetworkProgram>(session_, plan, blocking_.value_or(blocking_of(session_.device())));
+  });
+}
+
+std::vector<float> OpenClBackend::estimate(const Window& region, const EstimateProgress& progress) {
+  const Window window = window_around(*estimate_plan_, region);
+  return on_device("estimating", [&] {
+    const int first = region.y - window.y;
+    EstimateRun run(session_, *network_, {*frame_, colors_, *estimate_plan_, window}, first, first + region.height,
+                    items_, false);
+    return run.run(region.x - window.x, region.width, progress);
+  });
+}
+
+std::vector<EstimateStage> OpenClBackend::trace_estimate(const Window& region) {
+  const Window window = window_around(*estimate_plan_, region);
+  return on_device("tracing the estimator", [&] {
+    return EstimateRun(session_, *network_, {*frame_, colors_, *estimate_plan_, window}, 0, window.height, items_, true)
+        .trace();
+  });
+}
+
+std::uint64_t OpenClBackend::estimate_bytes(const EstimatePlan& plan, const Window& window,
+                                            std::uint64_t samples) const {
+  return EstimateSteps(plan, window, static_cast<double>(samples), 0, window.height, false).bytes() +
+         SampleStage::bytes(*plan.network);
+}
+
+}  // namespace rpf

@@ -1,0 +1,49 @@
+#include "rpf/methods.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rpf/error.h"
+
+namespace rpf {
+namespace {
+
+struct NamedMethod {
+  const char* name;
+  Method method;
+};
+
+/// In the order of Method.
+constexpr NamedMethod all_methods[] = {{"rpf", Method::rpf},
+                                       {"gaussian", Method::gaussian},
+                                       {"bilateral", Method::bilateral},
+                                       {"cross-bilateral", Method::cross_bilateral},
+                                       {"learned", Method::learned}};
+
+Settings settings_of(Method method) {
+  Settings s;
+  s.method = method;
+  if (method == Method::rpf || method == Method::learned) return s;
+  s.box_widths = {method == Method::cross_bilateral ? 9 : 5};
+  s.features = std::vector<std::string>{"first"};
+  return s;
+}
+
+}  // namespace
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const NamedMethod& m : all_methods) names.emplace_back(m.name);
+  return names;
+}
+
+std::string name_of(Method method) { return all_methods[static_cast<std::size_t>(method)].name; }
+
+Settings method_settings(const std::string& name) {
+  for (const NamedMethod& m : all_methods)
+    if (name == m.name) return settings_of(m.method);
+  throw Error(ErrorKind::usage,
+              fmt::format("method '{}': one of {} is expected", name, fmt::join(method_names(), ", ")));
+}
+
+}  // namespace rpf

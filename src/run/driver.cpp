@@ -1,0 +1,226 @@
+#include "run/driver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "after/polish.h"
+#include "after/resolve.h"
+#include "after/spikes.h"
+#include "learned/network_file.h"
+#include "learned/observe.h"
+#include "plan/validate.h"
+#include "rpf/error.h"
+#include "run/backends.h"
+#include "run/estimate_bands.h"
+#include "run/informative.h"
+#include "run/memory.h"
+#include "run/progress_meter.h"
+#include "run/provenance.h"
+#include "run/threads.h"
+#include "run/tiles.h"
+
+namespace rpf {
+namespace {
+
+using Pixels = std::vector<float>;  ///< [pixel][carried]
+
+/// Sum of R, G and B over the crop.
+double energy(const Pixels& pixels, const FrameFacts& facts) {
+  double sum = 0;
+  for (int y = facts.crop.y; y < facts.crop.y + facts.crop.height; ++y)
+    for (int x = facts.crop.x; x < facts.crop.x + facts.crop.width; ++x) {
+      const float* pixel = pixels.data() + (static_cast<std::size_t>(y) * facts.width + x) * facts.carried;
+      sum += static_cast<double>(pixel[0]) + pixel[1] + pixel[2];
+    }
+  return sum;
+}
+
+/// Copies some of the carried channels of the crop into an image, undoing the radiance scale for the color.
+Image image_of(const Pixels& pixels, const PreparedFrame& prepared, const Image& geometry, std::size_t first,
+               std::size_t last) {
+  const FrameFacts& facts = prepared.facts;
+  Image image = geometry;
+  image.channels.assign(prepared.carried_names.begin() + static_cast<std::ptrdiff_t>(first),
+                        prepared.carried_names.begin() + static_cast<std::ptrdiff_t>(last));
+  image.pixels.reserve(facts.crop.pixel_count() * image.channel_count());
+  for (int y = facts.crop.y; y < facts.crop.y + facts.crop.height; ++y)
+    for (int x = facts.crop.x; x < facts.crop.x + facts.crop.width; ++x)
+      for (std::size_t c = first; c < last; ++c) {
+        const float value = pixels[(static_cast<std::size_t>(y) * facts.width + x) * facts.carried + c];
+        image.pixels.push_back(c < 3 ? value / prepared.facts.radiance_scale : value);
+      }
+  return image;
+}
+
+/// Channels of the image proper: R, G, B, and A where there is one. The features follow.
+std::size_t color_channels(const PreparedFrame& prepared) {
+  const auto& names = prepared.carried_names;
+  return names.size() > 3 && names[3] == "A" ? 4 : 3;
+}
+
+/// One run: frame, plan and backend together.
+class Run {
+ public:
+  Run(SampleBuffer samples, const Settings& settings, const Control& control)
+      : settings_(settings), control_(control), threads_(thread_count(settings)) {
+    samples.validate();
+    validate(settings);
+    geometry_.data_window = settings.crop.value_or(samples.data_window);
+    geometry_.display_window = samples.display_window;
+    geometry_.metadata = samples.metadata;
+    check_memory(samples, settings);
+    backend_ = make_backend(settings);
+    const FrameSize size = frame_size(samples);
+    const std::size_t room = room_of(samples);
+    const SampleLayout layout = samples.layout;
+    prepared_ = prepare(std::move(samples), settings);
+    if (settings.method == Method::learned) {
+      estimate_plan_ = observe(prepared_, find_network(settings.model));
+      band_rows_ = estimate_bands(size, layout, room, settings, *backend_).rows;
+      return;
+    }
+    if (settings.method == Method::rpf && settings.drop_uninformative) drop_uninformative(prepared_, settings);
+    plan_ = make_plan(prepared_.facts, settings);
+  }
+
+  Result finish(const PassObserver& before_pass) {
+    return settings_.method == Method::learned ? estimate() : run_passes(before_pass);
+  }
+
+ private:
+  Pixels resolved() const { return resolve(prepared_.frame, backend_->colors(), plan_.carried); }
+
+  Result run_passes(const PassObserver& before_pass) {
+    ProgressMeter meter(plan_, control_);
+    Result result;
+    backend_->load(prepared_.frame, std::move(prepared_.colors), plan_);
+    Pixels pixels = resolved();
+    const double plain_energy = energy(pixels, prepared_.facts);
+    const float floor = polish_floor(prepared_.frame, pixels, plan_.carried);
+    for (int pass = 0; pass < static_cast<int>(plan_.passes.size()); ++pass) {
+      if (before_pass) before_pass(*backend_, plan_, pass);
+      PassReport report = run_pass(pass, meter);
+      pixels = resolved();
+      const double kept = energy(pixels, prepared_.facts);
+      report.energy = kept == plain_energy ? 1 : kept / plain_energy;
+      result.report.passes.push_back(report);
+    }
+    polish(prepared_.frame, plan_, {floor, threads_, [&](std::size_t done) { meter.add_polished(done); }}, pixels);
+    describe(result, pixels);
+    result.report.seconds = meter.seconds();
+    return result;
+  }
+
+  /// The learned estimator, band by band where memory is limited: a band has the pixels of the whole.
+  Result estimate() {
+    ProgressMeter meter(control_);
+    const FrameFacts& facts = prepared_.facts;
+    const double plain_energy = energy(resolve(prepared_.frame, prepared_.colors, facts.carried), facts);
+    backend_->load_estimate(prepared_.frame, std::move(prepared_.colors), estimate_plan_);
+    Pixels pixels(prepared_.frame.first_sample.size() * facts.carried, 0.0F);
+    const Window& crop = facts.crop;
+    for (int y = crop.y; y < crop.y + crop.height; y += band_rows_) {
+      const Window band{crop.x, y, crop.width, std::min(band_rows_, crop.y + crop.height - y)};
+      const double share = static_cast<double>(band.height) / crop.height;
+      place(backend_->estimate(band, [&](double part) { meter.add_part(share * part); }), band, pixels);
+    }
+    Result result;
+    PassReport report;
+    const double kept = energy(pixels, facts);
+    report.energy = kept == plain_energy ? 1 : kept / plain_energy;
+    report.seconds = result.report.seconds = meter.seconds();
+    result.report.passes.push_back(report);
+    result.report.model = estimate_plan_.network->name;
+    result.report.model_hash = estimate_plan_.network->hash;
+    describe(result, pixels);
+    return result;
+  }
+
+  void place(const std::vector<float>& part, const Window& band, Pixels& pixels) const {
+    const std::size_t row = static_cast<std::size_t>(band.width) * prepared_.facts.carried;
+    for (int y = 0; y < band.height; ++y)
+      std::copy_n(part.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * row), row,
+                  pixels.begin() + static_cast<std::ptrdiff_t>(
+                                       (static_cast<std::size_t>(band.y + y) * prepared_.facts.width + band.x) *
+                                       prepared_.facts.carried));
+  }
+
+  PassReport run_pass(int pass, ProgressMeter& meter) {
+    const PassPlan& plan = plan_.passes[static_cast<std::size_t>(pass)];
+    const double start = meter.seconds();
+    meter.add(pass, 0);
+    for (const Window& tile : cut_into_tiles(plan_, pass, control_, threads_)) {
+      backend_->run(pass, tile);
+      meter.add(pass, tile.pixel_count());
+    }
+    backend_->end_pass();
+    if (plan_.spread_spikes) spread_spikes(prepared_.frame, plan_.carried, backend_->colors_to_change());
+    PassReport report = summarize(backend_->statistics(), prepared_.frame, plan);
+    report.seconds = meter.seconds() - start;
+    return report;
+  }
+
+  void describe(Result& result, const Pixels& pixels) {
+    describe_input(*backend_, prepared_, result.report);
+    geometry_.metadata = provenance(geometry_.metadata, settings_, result.report);
+    const std::size_t colors = color_channels(prepared_);
+    result.image = image_of(pixels, prepared_, geometry_, 0, colors);
+    if (prepared_.carried_names.size() > colors)
+      result.features = image_of(pixels, prepared_, geometry_, colors, prepared_.carried_names.size());
+  }
+
+  const Settings& settings_;
+  const Control& control_;
+  int threads_;
+  Image geometry_;  ///< windows and metadata of the result
+  PreparedFrame prepared_;
+  Plan plan_;
+  EstimatePlan estimate_plan_;
+  int band_rows_ = 1;                 ///< of a learned estimate
+  std::unique_ptr<Backend> backend_;  ///< last: it refers to frame and plan
+};
+
+}  // namespace
+
+PassReport summarize(const std::vector<PixelStatistics>& statistics, const Frame& frame, const PassPlan& pass) {
+  PassReport report;
+  report.box_width = pass.box_width;
+  double pixels = 0, accepted = 0, drawn = 0;
+  for (int y = pass.region.y; y < pass.region.y + pass.region.height; ++y)
+    for (int x = pass.region.x; x < pass.region.x + pass.region.width; ++x) {
+      const std::size_t pixel = static_cast<std::size_t>(y) * frame.width + x;
+      const PixelStatistics& s = statistics[pixel];
+      if (s.neighbors == 0) continue;
+      ++pixels;
+      drawn += s.drawn;
+      accepted += s.neighbors - frame.samples(pixel);
+      report.neighbors += s.neighbors;
+      report.fraction_random += s.fraction_random;
+      report.alpha += s.alpha;
+      report.beta += s.beta;
+    }
+  const double n = std::max(pixels, 1.0);
+  report.acceptance = drawn > 0 ? accepted / drawn : 0;
+  for (double* mean : {&report.neighbors, &report.fraction_random, &report.alpha, &report.beta}) *mean /= n;
+  return report;
+}
+
+void describe_input(const Backend& backend, const PreparedFrame& prepared, Report& report) {
+  report.backend = backend.description();
+  report.random = prepared.facts.variables.random_names;
+  report.features = prepared.facts.variables.feature_names;
+  report.dropped = prepared.dropped;
+  report.uninformative = prepared.uninformative;
+  report.notes = prepared.notes;
+}
+
+Result run_filter(SampleBuffer samples, const Settings& settings, const Control& control,
+                  const PassObserver& before_pass) {
+  return Run(std::move(samples), settings, control).finish(before_pass);
+}
+
+Result filter(SampleBuffer samples, const Settings& settings, const Control& control) {
+  return run_filter(std::move(samples), settings, control, {});
+}
+
+}  // namespace rpf

@@ -1,0 +1,26 @@
+// The shared driver: runs a plan on a backend, pass by pass, tile by tile. It knows no device.
+#pragma once
+
+#include <functional>
+
+#include "frame/prepare.h"
+#include "rpf/filter.h"
+#include "seam/backend.h"
+
+namespace rpf {
+
+/// Called before each pass with the backend in the state that the pass starts from; for conformance tests.
+using PassObserver = std::function<void(Backend&, const Plan&, int pass)>;
+
+/// filter() of the public header, with an observer.
+Result run_filter(SampleBuffer samples, const Settings& settings, const Control& control,
+                  const PassObserver& before_pass);
+
+/// What a report says beside the passes: backend, modeled channels, notes about the input.
+void describe_input(const Backend& backend, const PreparedFrame& prepared, Report& report);
+
+/// Means in a fixed order over the pixels, so that the report too does not depend on threads or tiles. Energy and
+/// seconds are the caller's.
+PassReport summarize(const std::vector<PixelStatistics>& statistics, const Frame& frame, const PassPlan& pass);
+
+}  // namespace rpf

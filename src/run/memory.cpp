@@ -1,0 +1,96 @@
+#include "run/memory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "after/polish.h"
+#include "after/spikes.h"
+#include "frame/prepare.h"
+#include "frame/selection.h"
+#include "rpf/error.h"
+#include "rpf/filter.h"
+#include "rpf/io.h"
+#include "run/backends.h"
+#include "run/estimate_bands.h"
+#include "run/threads.h"
+#include "seam/backend.h"
+
+namespace rpf {
+namespace {
+
+constexpr std::uint64_t word = 4;
+
+/// Most floats a sample that exist at once: while records are made of what was read, in place where there is room for
+/// them, beside the first colors; or while filtering, with the colors of this and the next pass.
+std::uint64_t sample_floats(std::uint64_t read, std::uint64_t room, std::uint64_t records, std::uint64_t carried) {
+  const std::uint64_t preparing = records <= room ? std::max(read, records) : read + records;
+  return std::max(preparing + carried, records + 2 * carried);
+}
+
+/// Per pixel: offsets, statistics, images before and after a pass, the result.
+std::uint64_t pixel_bytes(std::uint64_t carried) { return 2 * word + sizeof(PixelStatistics) + 3 * word * carried; }
+
+FrameFacts facts_of(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {
+  FrameFacts facts;
+  facts.width = size.width;
+  facts.height = std::numeric_limits<int>::max();  // what the box is, the frame has room for
+  facts.max_samples_per_pixel = size.max_samples_per_pixel;
+  const Selection selection = select_channels(layout, settings);
+  facts.variables.random_names = selection.random;
+  facts.variables.feature_names = selection.features;
+  facts.carried = carried_count(layout, settings);
+  return facts;
+}
+
+/// `room`: columns that the buffer of values can hold.
+std::uint64_t memory_need(const FrameSize& size, const SampleLayout& layout, std::uint64_t room,
+                          const Settings& settings) {
+  if (settings.method == Method::learned)
+    return estimate_bands(size, layout, room, settings, *make_backend(settings)).bytes;
+  const FrameFacts facts = facts_of(size, layout, settings);
+  Settings without_crop = settings;
+  without_crop.crop.reset();
+  const Plan plan = make_plan(facts, without_crop);
+  const std::uint64_t floats = sample_floats(layout.size(), room, facts.variables.count(), facts.carried);
+  const std::uint64_t steps =
+      (plan.spread_spikes ? spikes_bytes(size.pixels) : 0) + polish_bytes(plan, thread_count(settings));
+  return size.samples * word * floats + size.pixels * pixel_bytes(facts.carried) + steps +
+         make_backend(settings)->scratch_bytes(plan, size.samples);
+}
+
+}  // namespace
+
+FrameSize frame_size(const SampleBuffer& samples) {
+  return {samples.data_window.pixel_count(), samples.sample_count(), most_samples(samples.first_sample),
+          samples.data_window.width};
+}
+
+std::uint64_t room_of(const SampleBuffer& samples) {
+  return samples.values.capacity() / std::max<std::uint64_t>(samples.sample_count(), 1);
+}
+
+std::size_t carried_count(const SampleLayout& layout, const Settings& settings) {
+  const std::size_t colors = layout.find("A") ? 4 : 3;
+  if (!settings.filter_features) return colors;
+  const auto is_feature = [](const std::string& slot) { return is_feature_slot(slot); };
+  return colors + static_cast<std::size_t>(std::count_if(layout.slots.begin(), layout.slots.end(), is_feature));
+}
+
+std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {
+  return memory_need(size, layout, layout.size() + spare_columns, settings);
+}
+
+void check_memory(const SampleBuffer& samples, const Settings& settings, std::uint64_t more) {
+  if (settings.max_memory == 0) return;
+  const std::uint64_t need = memory_need(frame_size(samples), samples.layout, room_of(samples), settings) + more;
+  constexpr double megabyte = 1 << 20;
+  if (need > settings.max_memory)
+    throw Error(ErrorKind::memory,
+                fmt::format("filtering needs {:.0f} MB, the limit is {:.0f} MB; raise --max-memory, lower --threads or "
+                            "leave channels out",
+                            static_cast<double>(need) / megabyte, static_cast<double>(settings.max_memory) / megabyte));
+}
+
+}  // namespace rpf

@@ -1,0 +1,22 @@
+// Memory is accounted for before it is taken.
+#pragma once
+
+#include "rpf/filter.h"
+#include "rpf/samples.h"
+#include "rpf/settings.h"
+
+namespace rpf {
+
+FrameSize frame_size(const SampleBuffer& samples);
+
+/// Columns that the buffer of values can hold.
+std::uint64_t room_of(const SampleBuffer& samples);
+
+/// Values a sample that are averaged: color, alpha, and the features where they are wanted.
+std::size_t carried_count(const SampleLayout& layout, const Settings& settings);
+
+/// Throws Error(memory) with the need and the limit where the run, with `more` bytes for what else the
+/// caller does, would exceed Settings::max_memory.
+void check_memory(const SampleBuffer& samples, const Settings& settings, std::uint64_t more = 0);
+
+}  // namespace rpf

@@ -1,0 +1,11 @@
+// How many threads a run has.
+#pragma once
+
+#include "rpf/settings.h"
+
+namespace rpf {
+
+/// The threads that the settings stand for: all cores of the affinity mask where they do not say.
+int thread_count(const Settings& settings);
+
+}  // namespace rpf

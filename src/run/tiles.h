@@ -1,0 +1,14 @@
+// What a backend is handed at once: parts of a pass's region.
+#pragma once
+
+#include <vector>
+
+#include "plan/plan.h"
+#include "rpf/filter.h"
+
+namespace rpf {
+
+/// The tiles of a pass, in their order.
+std::vector<Window> cut_into_tiles(const Plan& plan, int pass, const Control& control, int threads);
+
+}  // namespace rpf

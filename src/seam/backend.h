@@ -1,0 +1,59 @@
+// The seam: what the driver asks of a backend. Coarse enough for a device, small enough to read.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "frame/frame.h"
+#include "learned/estimate_plan.h"
+#include "pass.h"
+#include "plan/plan.h"
+#include "seam/trace.h"
+
+namespace rpf {
+
+/// What the filter found at a pixel in the latest pass.
+using PixelStatistics = kernel::rpf_pixel_statistics;
+
+class Backend {
+ public:
+  virtual ~Backend() = default;
+
+  /// Its name, with the device it runs on, for example "opencl (pthread-skylake-avx512)".
+  virtual std::string description() const = 0;
+  /// Called once, before anything else. Frame and plan outlive the backend; `colors` is c' of the first pass,
+  /// [sample][carried].
+  virtual void load(const Frame& frame, std::vector<float> colors, const Plan& plan) = 0;
+  /// Filters the pixels of a tile (frame coordinates, inside the pass's region). Tiles of a pass do not overlap.
+  virtual void run(int pass, const Window& tile) = 0;
+  /// Ends a pass: its result becomes the input c' of the next.
+  virtual void end_pass() = 0;
+  /// The samples' colors as after the latest ended pass, scaled radiance: [sample][carried].
+  virtual const std::vector<float>& colors() const = 0;
+  /// The same, to be changed: between load() or end_pass() and the next run() or trace(), no longer.
+  virtual std::vector<float>& colors_to_change() = 0;
+  /// [pixel], of the latest pass run.
+  virtual const std::vector<PixelStatistics>& statistics() const = 0;
+  /// Of the latest tile run where Plan::explain asks for it: for every pixel, row by row, the mutual information of all
+  /// pairs (in the order of PixelTrace::mutual_information), then rpf_effective_samples(). 0 where there are no
+  /// samples.
+  virtual const std::vector<float>& explained() const = 0;
+  /// Peak bytes of the backend's own memory beside frame and result, for a frame of so many samples.
+  virtual std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const = 0;
+  /// All intermediate values of one pixel, from the state before end_pass(). Changes nothing.
+  virtual PixelTrace trace(int pass, std::uint32_t pixel) = 0;
+
+  // The learned estimator, in place of all of the above.
+
+  /// Called once, before anything else. Frame and plan outlive the backend; `colors`: [sample][carried].
+  virtual void load_estimate(const Frame& frame, std::vector<float> colors, const EstimatePlan& plan) = 0;
+  /// The result of a region (frame coordinates): [pixel of the region, row by row][carried], scaled radiance.
+  virtual std::vector<float> estimate(const Window& region, const EstimateProgress& progress) = 0;
+  /// All stages of the same.
+  virtual std::vector<EstimateStage> trace_estimate(const Window& region) = 0;
+  /// Peak bytes of the backend's own memory in estimate(), of a window (window_around()) with so many samples.
+  virtual std::uint64_t estimate_bytes(const EstimatePlan& plan, const Window& window, std::uint64_t samples) const = 0;
+};
+
+}  // namespace rpf
