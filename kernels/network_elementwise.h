@@ -8,7 +8,7 @@ RPF_INLINE RPF_REAL rpf_held(RPF_REAL x, float low, float high) {
   return above < high ? above : high;
 }
 
-// ln x of a normal x above 0, within 2e-7 of max(|ln x|, 1/4). x = 2^n m with m in [1/sqrt 2, sqrt 2); polynomial in
+// ln x of a normal x above 0, within 1e-7 of max(|ln x|, 1/4). x = 2^n m with m in [1/sqrt 2, sqrt 2); polynomial in
 // m - 1 (the coefficients of Cephes' logf, S. Moshier); ln 2 in two parts.
 RPF_INLINE RPF_REAL rpf_log(RPF_REAL x) {
   const RPF_INT bits = RPF_AS_INT(x);
