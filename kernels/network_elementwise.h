@@ -1,6 +1,6 @@
 // Formulas of the learned estimator (docs/network.md) that hold value by value. rpf_network.h includes this text once
-// for every type, as numeric.h does with elementwise.h. Hence no include guard. NOLINTBEGIN(modernize-*,
-// bugprone-macro-parentheses): this is OpenCL C too
+// for every type, as numeric.h does with elementwise.h. Hence no include guard.
+// NOLINTBEGIN(modernize-*, bugprone-macro-parentheses): this is OpenCL C too
 
 // x held in [low, high]; NaN becomes low. Whatever a network computes is finite after it.
 RPF_INLINE RPF_REAL rpf_held(RPF_REAL x, float low, float high) {
