@@ -1,5 +1,5 @@
-// Formulas of the learned estimator (docs/network.md) that hold value by value. rpf_network.h includes this text once for
-// every type, as numeric.h does with elementwise.h. Hence no include guard.
+// Formulas of the learned estimator (docs/network.md) that hold value by value. rpf_network.h includes this text once
+// for every type, as numeric.h does with elementwise.h. Hence no include guard.
 // NOLINTBEGIN(modernize-*, bugprone-macro-parentheses): this is OpenCL C too
 
 // x held in [low, high]; NaN becomes low. Whatever a network computes is finite after it.
@@ -8,7 +8,7 @@ RPF_INLINE RPF_REAL rpf_held(RPF_REAL x, float low, float high) {
   return above < high ? above : high;
 }
 
-// ln x of a normal x above 0, within 2e-7 of max(|ln x|, 1/4). x = 2^n m with m in [1/sqrt 2, sqrt 2); polynomial in
+// ln x of a normal x above 0, within 1e-7 of max(|ln x|, 1/4). x = 2^n m with m in [1/sqrt 2, sqrt 2); polynomial in
 // m - 1 (the coefficients of Cephes' logf, S. Moshier); ln 2 in two parts.
 RPF_INLINE RPF_REAL rpf_log(RPF_REAL x) {
   const RPF_INT bits = RPF_AS_INT(x);

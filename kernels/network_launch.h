@@ -49,8 +49,8 @@ typedef struct {
   int inputs;  // columns of records
 } rpf_layer;
 
-// Some pixels of a window of the frame, row by row, whose samples lie side by side in the frame: records, colors, weights
-// and what is made of samples begin with the first of them.
+// Some pixels of a window of the frame, row by row, whose samples lie side by side in the frame: records, colors,
+// weights and what is made of samples begin with the first of them.
 typedef struct {
   int first, end;     // pixels of the window
   int x, width;       // the window's columns in the frame

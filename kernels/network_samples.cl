@@ -198,8 +198,8 @@ __kernel void add_context(__global const float* heads, __global const uint* firs
   }
 }
 
-// weight2 and what follows, of RPF_LANES samples at once. `hidden`: [sample][RPF_WEIGHT_FEATURES] of weight1; `output`: as
-// many weights and the bias. Also writes behind the last sample, up to a multiple of RPF_LANES.
+// weight2 and what follows, of RPF_LANES samples at once. `hidden`: [sample][RPF_WEIGHT_FEATURES] of weight1; `output`:
+// as many weights and the bias. Also writes behind the last sample, up to a multiple of RPF_LANES.
 __kernel void weigh_samples(__global const float* hidden, __global const float* output,
                             __global const float* file_weights, __global float* weights, const rpf_chunk c) {
   for (uint s = RPF_LANES * (uint)get_global_id(0); s < c.samples; s += RPF_LANES * (uint)get_global_size(0)) {

@@ -13,8 +13,8 @@ using Kind = EstimateStep::Kind;
 /// Cells of a part of a row: many parts for many work-items, and each long enough.
 constexpr int part_cells = 64;
 
-/// Multiply-adds that the device is asked for before it is waited for: a fraction of a second.
-constexpr double work_at_once = 2e9;
+/// Multiply-adds that the device is asked for before it is waited for: a fraction of a second, and of the whole.
+constexpr double work_at_once = 2e9, least_waits = 32;
 
 /// Behind a grid there may be read, not more than a vector, what has no meaning.
 constexpr std::size_t read_behind = RPF_LANES * sizeof(float);
@@ -136,7 +136,7 @@ void EstimateRun::run_step(const EstimateStep& step, int first, int end, const P
 
 std::vector<float> EstimateRun::run(int x, int width, const EstimateProgress& progress) {
   std::vector<float> pixels;
-  const double all = steps_.work();
+  const double all = steps_.work(), at_once = std::min(work_at_once * static_cast<double>(items_), all / least_waits);
   double asked_for = 0;
   const auto wait = [&] {
     session_.finish();
@@ -147,7 +147,7 @@ std::vector<float> EstimateRun::run(int x, int width, const EstimateProgress& pr
     const double work = step.row_work * (end - first);
     run_step(step, first, end, [&](double share) {
       asked_for += work * share;
-      if (asked_for > work_at_once * static_cast<double>(items_)) wait();
+      if (asked_for > at_once) wait();
     });
     if (step.kind == Kind::finish) collect(first, end, x, width, pixels);
   });

@@ -1,7 +1,8 @@
 // The learned estimator on a device, for one window.
 #pragma once
 
-#include <memory>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "opencl/estimate_steps.h"
@@ -23,7 +24,6 @@ class EstimateRun {
  private:
   using Part = std::function<void(double share)>;
 
-  void allocate();
   void run_step(const EstimateStep& step, int first, int end, const Part& part);
   void run_layer(const EstimateStep& step, const DeviceLayer& layer, int first, int end);
   void run_halve(const EstimateStep& step, int first, int end);

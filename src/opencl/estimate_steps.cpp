@@ -16,8 +16,8 @@ using kernel::uint;
 /// and over.
 constexpr int cells_at_once = 16384, most_rows_at_once = 64, least_rows_at_once = 8;
 
-int rows_at_once(EstimateStep::Kind kind, int width, int level) {
-  if (kind == EstimateStep::Kind::pass) return most_rows_at_once;
+int rows_at_once(Kind kind, int width, int level) {
+  if (kind == Kind::pass || kind == Kind::finish) return most_rows_at_once;  // the latter asks for rows of the former
   return std::clamp(cells_at_once / width, least_rows_at_once,
                     std::max(most_rows_at_once >> level, least_rows_at_once));
 }

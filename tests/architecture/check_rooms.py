@@ -18,7 +18,7 @@ ROOMS = {
     "src/seam": "src/frame src/plan src/learned kernels",
     # those who do it; what follows a pass; the run
     "src/cpu": "src/frame src/plan src/learned src/seam kernels",
-    "src/opencl": "src/frame src/plan src/seam kernels",
+    "src/opencl": "src/frame src/plan src/learned src/seam kernels",
     "src/after": "src/frame src/plan kernels",
     "src/run": "src/frame src/plan src/learned src/seam src/cpu src/opencl src/after kernels",
     "src/explain": "src/frame src/plan src/seam src/after src/run kernels",
