@@ -53,7 +53,7 @@ def render_reference(scene, camera, objects, spp, seed):
     total, variance = 0.0, 0.0
     for slot in range(SLOTS):
         objects.set_slot(slot)
-        a, b = (np.array(scene.integrator().render(scene, sensor=camera, seed=dr.opaque(mi.UInt32, seed + 2 * slot + k), spp=each),
-                         np.float64) for k in (0, 1))
+        a, b = (np.array(scene.integrator().render(scene, sensor=camera, seed=dr.opaque(mi.UInt32, seed + 2 * slot + k), spp=each))
+                .astype(np.float64) for k in (0, 1))
         total, variance = total + (a + b) / 2, variance + np.square(a - b) / 4
     return total / SLOTS, variance / SLOTS**2
