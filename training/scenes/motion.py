@@ -31,18 +31,18 @@ class MovingObjects:
 def render_samples(scene, camera, objects, spp, seed):
     """As rpf.mitsuba.render_samples. Every sample has a slot of its own choice, and a time in it."""
     width, height = (int(v) for v in camera.film().crop_size())
-    slot_of = np.random.default_rng([seed, 1]).integers(0, SLOTS, width * height * spp)
+    total = width * height * spp
+    # slots of one size; those that fill the last up are rendered again
+    lanes_of = np.resize(np.random.default_rng([seed, 1]).permutation(total), (SLOTS, -(-total // SLOTS)))
     channels = {}
-    for slot in range(SLOTS):
-        lanes = np.flatnonzero(slot_of == slot)
-        if not len(lanes):
-            continue
+    for slot, lanes in enumerate(lanes_of):
         objects.set_slot(slot)
         sampler = camera.sampler().clone()
         sampler.seed(dr.opaque(mi.UInt32, seed * SLOTS + slot), len(lanes))
-        for name, values in planes(trace(scene, camera, sampler, mi.UInt32(lanes // spp), spp)).items():
-            channels.setdefault(name, np.empty(len(slot_of), np.float32))[lanes] = values
-    channels["random.time"] = ((slot_of + channels["random.time"]) / SLOTS).astype(np.float32)
+        traced = planes(trace(scene, camera, sampler, mi.UInt32(lanes // spp), spp))
+        traced["random.time"] = np.minimum((slot + traced["random.time"]) / SLOTS, np.float32(1 - 2**-24))  # 1 is excluded
+        for name, values in traced.items():
+            channels.setdefault(name, np.empty(total, np.float32))[lanes] = values
     metadata = {"rpf:seed": int(seed), "rpf:renderer": f"Mitsuba {mi.__version__}"}
     return Samples((0, 0, width, height), np.full(width * height, spp, np.uint32), channels, metadata)
 
@@ -53,7 +53,7 @@ def render_reference(scene, camera, objects, spp, seed):
     total, variance = 0.0, 0.0
     for slot in range(SLOTS):
         objects.set_slot(slot)
-        a, b = (np.array(scene.integrator().render(scene, sensor=camera, seed=dr.opaque(mi.UInt32, seed + 2 * slot + k), spp=each),
-                         np.float64) for k in (0, 1))
+        a, b = (np.array(scene.integrator().render(scene, sensor=camera, seed=dr.opaque(mi.UInt32, seed + 2 * slot + k), spp=each))
+                .astype(np.float64) for k in (0, 1))
         total, variance = total + (a + b) / 2, variance + np.square(a - b) / 4
     return total / SLOTS, variance / SLOTS**2
