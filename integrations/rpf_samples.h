@@ -23,7 +23,6 @@
 #endif
 #include <errno.h>
 #include <fcntl.h>
-#include <limits.h>
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -34,6 +33,9 @@
 #include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
+#if defined(__GLIBC__) && !defined(__USE_MISC)
+#error "include rpf_samples.h before the system's headers, or compile with -D_DEFAULT_SOURCE"
+#endif
 
 typedef struct rpf_samples rpf_samples;
 
@@ -85,7 +87,8 @@ enum {
   rpf_raw_slice_bytes = 1 << 24,  /* what is sorted at once; a band of 2,000 pixels with 64 samples of 26 floats fits */
   rpf_raw_header_bytes = 1 << 20, /* a longer first line is not read */
   rpf_raw_channels = 1024,
-  rpf_raw_side = 1 << 20 /* longest side of a window, in pixels */
+  rpf_raw_side = 1 << 20,    /* longest side of a window, in pixels */
+  rpf_raw_farthest = 1 << 29 /* of its corner, from the origin */
 };
 
 /* A block holds records of one size: the pixel's number in its band (32 bits), then a float a channel. */
@@ -371,6 +374,9 @@ static inline rpf_samples* rpf_samples_open(const char* path, int x, int y, int 
   else if (width < 1 || height < 1 || width > rpf_raw_side || height > rpf_raw_side)
     rpf_raw_fail(file, RPF_SAMPLES_USAGE, "\"%s\": %d x %d pixels, expected 1 to %d each", path, width, height,
                  rpf_raw_side);
+  else if (x < -rpf_raw_farthest || x > rpf_raw_farthest || y < -rpf_raw_farthest || y > rpf_raw_farthest)
+    rpf_raw_fail(file, RPF_SAMPLES_USAGE, "\"%s\": a window at %d, %d, expected within %d pixels", path, x, y,
+                 rpf_raw_farthest);
   else if (channel_count < 1 || channel_count > rpf_raw_channels)
     rpf_raw_fail(file, RPF_SAMPLES_USAGE, "\"%s\": %d channels, expected 1 to %d", path, channel_count,
                  rpf_raw_channels);

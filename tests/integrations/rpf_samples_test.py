@@ -90,7 +90,7 @@ class SampleHeaderTest(unittest.TestCase):
     def test_a_killed_renderer_leaves_the_old_file(self):
         self.path.write_bytes(OLD)
         with subprocess.Popen(command(self.path, 1000, 1000, 60, 2), stderr=subprocess.DEVNULL) as process:
-            while not any(entry.name.startswith(".rpf-") for entry in self.folder.iterdir()):
+            while process.poll() is None and not any(entry.name.startswith(".rpf-") for entry in self.folder.iterdir()):
                 time.sleep(0.001)
             process.kill()
         self.assertEqual(self.path.read_bytes(), OLD)

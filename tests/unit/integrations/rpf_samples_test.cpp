@@ -1,12 +1,15 @@
-// The header for renderers: whatever the order, the file is the one that docs/file-format.md describes, or there is
-// none.
+// The header for renderers: whatever the order, the file is what docs/file-format.md describes, or there is none.
 #include "rpf_samples.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <climits>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <random>
 #include <string>
 #include <thread>
@@ -152,15 +155,20 @@ TEST(SampleHeader, TakesOneSampleAPixelWithoutCounts) {
   expect_finished(file, folder, expected_bytes(frame));
 }
 
-// Threads that take every fourth pixel: all of them write into the same bands.
+// All threads write into one band of pixels, a sample at a time, each of them every fourth pixel.
 TEST(SampleHeader, TakesSamplesFromManyThreads) {
   const TemporaryFolder folder;
-  const Frame frame = make_frame(0, 0, 97, 71, 40);
+  const Frame frame = make_frame(0, 0, 64, 16, 400);
   rpf_samples* file = open_frame(folder.file("a.rpf"), frame);
+  std::atomic<int> waiting{4};
   std::vector<std::thread> threads;
-  for (std::size_t t = 0; t < 4; ++t)
+  for (int t = 0; t < 4; ++t)
     threads.emplace_back([&, t] {
-      for (std::size_t pixel = t; pixel < frame.pixels.size(); pixel += 4) add_pixel(file, frame, pixel);
+      --waiting;
+      while (waiting > 0) std::this_thread::yield();
+      for (int pixel = t; pixel < 64 * 16; pixel += 4)
+        for (const Record& record : frame.pixels[static_cast<std::size_t>(pixel)])
+          rpf_samples_add(file, pixel % 64, pixel / 64, 1, record.data());
     });
   for (std::thread& thread : threads) thread.join();
   expect_finished(file, folder, expected_bytes(frame));
@@ -296,6 +304,8 @@ TEST(SampleHeader, RefusesWindowsAndChannelsThatNobodyReads) {
   };
   expect_refused(0, 5, {"R"}, "0 x 5 pixels");
   expect_refused(5, 1048577, {"R"}, "5 x 1048577 pixels");
+  expect_failed(rpf_samples_open(path.c_str(), 1, -(1 << 29) - 1, 5, 5, channels, channel_count), RPF_SAMPLES_USAGE,
+                {path, "a window at 1, -536870913"});
   expect_refused(5, 5, {}, "0 channels");
   expect_refused(5, 5, std::vector<const char*>(1025, "R"), "1025 channels");
   expect_refused(5, 5, {"R", "G", "R"}, "the channel R is there twice");
