@@ -6,7 +6,7 @@ import tempfile
 from pathlib import Path
 
 PROJECT = Path(sys.argv[1])
-COPIED = ("CMakeLists.txt", "README.md", "bench", "docs", "examples", "include", "kernels", "src", "tests")
+COPIED = ("CMakeLists.txt", "README.md", "bench", "docs", "examples", "include", "integrations", "kernels", "src", "tests")
 LEFT_OUT = shutil.ignore_patterns("corpus", "*.exr", "*.jpg", "*.png", "__pycache__")
 
 # What is appended to which file (made where it is missing), and what must then be said.
@@ -19,6 +19,9 @@ BROKEN = (
     ("include/rpf/image.h", '#include "frame/frame.h"\n', "include must not depend on src/frame"),
     ("src/plan/plan.cpp", "#include <tbb/parallel_for.h>\n", "src/plan/plan.cpp includes tbb/parallel_for.h"),
     ("src/run/driver.cpp", "void f() { std::exit(1); }\n", "src/run/driver.cpp has std::exit"),
+    ("integrations/rpf_samples.h", '#include "rpf/io.h"\n', "integrations must not depend on include"),
+    ("src/io/raw_writer.cpp", '#include "rpf_samples.h"\n', "src/io must not depend on integrations"),
+    ("docs/renderers.md", "```c\nint other;\n```\n", "docs/renderers.md: its code is not examples/renderer.c"),
     ("src/loose.cpp", "\n", "src/loose.cpp: src holds rooms only"),
     ("src/attic/old.cpp", "\n", "src/attic: src holds rooms only"),
     ("docs/architecture.md", "`src/attic/old`\n", "docs/architecture.md: there is no src/attic/old"),
