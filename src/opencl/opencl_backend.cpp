@@ -88,6 +88,17 @@ std::string OpenClBackend::description() const {
   return "opencl (" + session_.device().getInfo<CL_DEVICE_NAME>() + ")";
 }
 
+OpenClBackend::KernelProgram OpenClBackend::program_for(const Frame& frame, const Plan& plan) const {
+  const bool fixed = plan.method != Method::rpf;
+  return {fixed ? "box.cl" : "filter.cl", definitions(frame, plan) + (fixed ? "" : phases_)};
+}
+
+void OpenClBackend::get_ready(const Frame& frame, const Plan& plan, const std::function<void()>& check) {
+  if (plan.passes.empty()) return;
+  const KernelProgram needed = program_for(frame, plan);
+  on_device("compiling", [&] { session_.rehearse(needed.file, needed.definitions, check); });
+}
+
 void OpenClBackend::load(const Frame& frame, std::vector<float> colors, const Plan& plan) {
   frame_ = &frame;
   plan_ = &plan;
@@ -99,8 +110,8 @@ void OpenClBackend::load(const Frame& frame, std::vector<float> colors, const Pl
   if (plan.passes.empty()) return;
   on_device("preparing the filter", [&] {
     const bool fixed = has_fixed_weights();
-    const cl::Program& program =
-        session_.program(fixed ? "box.cl" : "filter.cl", definitions(frame, plan) + (fixed ? "" : phases_));
+    const KernelProgram needed = program_for(frame, plan);
+    const cl::Program& program = session_.program(needed.file, needed.definitions);
     kernel_ = cl::Kernel(program, fixed ? "filter_box" : "filter_tile");
     layout_kernel_ = cl::Kernel(program, fixed ? "lay_out_columns" : "lay_out_records");
     centers_ = session_.copy(plan.centers);

@@ -27,6 +27,7 @@ class OpenClBackend : public Backend {
   explicit OpenClBackend(const OpenClOptions& options);
 
   std::string description() const override;
+  void get_ready(const Frame& frame, const Plan& plan, const std::function<void()>& check) override;
   void load(const Frame& frame, std::vector<float> colors, const Plan& plan) override;
   void run(int pass, const Window& tile) override;
   void end_pass() override;
@@ -48,6 +49,11 @@ class OpenClBackend : public Backend {
     cl::Buffer variables, scales;
   };
 
+  /// A program of kernels/, and what is compiled into it.
+  struct KernelProgram {
+    std::string file, definitions;
+  };
+
   /// What a launch writes. Without a trace its buffers are null.
   struct Results {
     cl::Buffer next_colors, statistics, explained, trace_values, trace_histograms;
@@ -58,6 +64,7 @@ class OpenClBackend : public Backend {
   BandLimit band_limit() const;    ///< what it shall take at most where it can be smaller
   const Band& band_for(int pass, const Rows& needed);
   bool has_fixed_weights() const { return plan_->method != Method::rpf; }  ///< box.cl in place of filter.cl
+  KernelProgram program_for(const Frame& frame, const Plan& plan) const;
   void lay_out(const Band& band);
   /// The arguments of filter_tile or filter_box, without the last one.
   std::vector<cl::Buffer> buffers(int pass, const Band& band, const Results& results);

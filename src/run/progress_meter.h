@@ -23,6 +23,8 @@ class ProgressMeter {
   void add_polished(std::size_t pixels);
   /// Counts a part of a learned estimate, which is 1 as a whole.
   void add_part(double part);
+  /// Only tells the caller again, in the middle of something long.
+  void check() { tell(0); }
   double seconds() const;
 
  private:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ class Backend {
 
   /// Its name, with the device it runs on, for example "opencl (pthread-skylake-avx512)".
   virtual std::string description() const = 0;
+  /// Gets ready what the plan needs, such as compiled kernels, without taking anything; load() does it where nobody did.
+  /// Throws Error(device) where that fails, and what `check` throws, which is called now and then.
+  virtual void get_ready(const Frame& /*frame*/, const Plan& /*plan*/, const std::function<void()>& /*check*/) {}
   /// Called once, before anything else. Frame and plan outlive the backend; `colors` is c' of the first pass,
   /// [sample][carried].
   virtual void load(const Frame& frame, std::vector<float> colors, const Plan& plan) = 0;
