@@ -86,7 +86,7 @@ class Child {
                                      pointers_to(environment).data());
     ::posix_spawn_file_actions_destroy(&streams);
     if (failed != 0)
-      throw Error(ErrorKind::device, fmt::format("\"{}\", which asks OpenCL drivers, cannot be started ({})",
+      throw Error(ErrorKind::device, fmt::format("\"{}\", which asks OpenCL drivers, cannot be started ({}); put it right, or use --backend=cpu",
                                                  arguments.front(), std::system_category().message(failed)));
     answer_.close(1);
     words_.close(1);
@@ -144,13 +144,13 @@ class Child {
     std::string text = WIFSIGNALED(status_)
                            ? fmt::format("ended the process that asked it ({})", ::strsignal(WTERMSIG(status_)))
                            : fmt::format("ended the process that asked it (exit code {})", WEXITSTATUS(status_));
-    const std::string said = last_line(last_words_);
+    const std::string said = last_line(last_words_);  // without its full stop: more is said behind it
     return said.empty() ? text : text + ": " + said;
   }
 
   static std::string last_line(const std::string& words) {
     constexpr std::size_t longest = 300;
-    const std::size_t last = words.find_last_not_of("\r\n\t ");
+    const std::size_t last = words.find_last_not_of("\r\n\t .");
     if (last == std::string::npos) return {};
     const std::size_t begin = words.find_last_of('\n', last) + 1;
     std::string line = words.substr(begin, std::min(last + 1 - begin, longest));

@@ -16,9 +16,9 @@ namespace {
 
 using std::chrono::seconds;
 
-/// PoCL answers in a tenth of a second, eight cold starts at once on a busy machine in some ten; a filter's kernels
-/// compile in some seconds.
-constexpr seconds to_answer{25}, to_compile{180};
+/// PoCL answers in a tenth of a second, eight cold starts at once on a busy machine take some ten seconds; a filter's
+/// kernels compile in some seconds.
+constexpr seconds to_answer{20}, to_compile{180};
 
 constexpr const char* what_to_do = "use --backend=cpu; another driver is chosen with OCL_ICD_VENDORS, "
                                    "and `rpf devices` asks again";
@@ -102,8 +102,7 @@ void require_compiled(const KernelBuild& build, const Check& check) {
   const Verdicts verdicts(verdict_folder());
   const bool is_gone = build.in_our_cache && !kernel_cache_folder().empty() &&
                        indexed_programs(kernel_cache_folder(), build.source).empty();
-  if (const auto verdict = verdicts.find(name); is_gone && verdict && verdict->works)
-    verdicts.forget(name);
+  if (const auto verdict = verdicts.find(name); is_gone && verdict && verdict->works) verdicts.forget(name);
   ask_and_keep({"build", std::to_string(build.device), build.file, build.definitions}, name, to_compile, check);
 }
 
