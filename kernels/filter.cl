@@ -235,7 +235,7 @@ __kernel void filter_tile(__global const uint* first_sample, __global const floa
                      records + item * RPF_CHUNKS * pass.capacity,
                      planes + item * RPF_VARIABLES * rpf_plane_words(pass.capacity) * RPF_BIN_VECTORS,
                      columns + item * RPF_COLUMNS * RPF_STRETCH,
-                     sums + item * pass.most_samples * (1 + RPF_CARRIED)};
+                     sums + item * (pass.most_samples * (1 + RPF_CARRIED) + 1)};
   const Output output = {next_colors, statistics, explained};
   const Area tile = {pass.tile_x, pass.tile_y, pass.tile_x + pass.tile_width, pass.tile_y + pass.tile_height};
   const int side = max((int)pass.block, 1), first_x = tile.x / side, first_y = tile.y / side;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -57,6 +58,25 @@ struct Pipe {
   }
 };
 
+/// A text as a file without a name, to be read from its beginning.
+struct File {
+  int descriptor = ::memfd_create("rpf", MFD_CLOEXEC);
+
+  explicit File(const std::string& text) {
+    std::size_t done = 0;
+    for (ssize_t count = 1; count > 0 && done < text.size();
+         done += static_cast<std::size_t>(std::max<ssize_t>(count, 0)))
+      count = ::write(descriptor, text.data() + done, text.size() - done);
+    if (done < text.size() || ::lseek(descriptor, 0, SEEK_SET) != 0)
+      throw Error(ErrorKind::device, "no memory to ask an OpenCL driver");
+  }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  ~File() {
+    if (descriptor >= 0) ::close(descriptor);
+  }
+};
+
 std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
   for (std::string& text : texts) pointers.push_back(text.data());
@@ -74,20 +94,23 @@ bool take(int descriptor, std::string& text) {
 
 class Child {
  public:
-  explicit Child(const std::vector<std::string>& question) {
+  Child(const std::vector<std::string>& question, const std::string& input) {
+    const File text(input);
     std::vector<std::string> arguments{helper()}, environment = environment_with_our_cache();
     arguments.insert(arguments.end(), question.begin(), question.end());
     posix_spawn_file_actions_t streams;
     ::posix_spawn_file_actions_init(&streams);
-    ::posix_spawn_file_actions_addopen(&streams, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    ::posix_spawn_file_actions_adddup2(&streams, text.descriptor, STDIN_FILENO);
     ::posix_spawn_file_actions_adddup2(&streams, answer_.ends[1], STDOUT_FILENO);
     ::posix_spawn_file_actions_adddup2(&streams, words_.ends[1], STDERR_FILENO);
     const int failed = ::posix_spawn(&id_, arguments.front().c_str(), &streams, nullptr, pointers_to(arguments).data(),
                                      pointers_to(environment).data());
     ::posix_spawn_file_actions_destroy(&streams);
     if (failed != 0)
-      throw Error(ErrorKind::device, fmt::format("\"{}\", which asks OpenCL drivers, cannot be started ({}); put it right, or use --backend=cpu",
-                                                 arguments.front(), std::system_category().message(failed)));
+      throw Error(
+          ErrorKind::device,
+          fmt::format("\"{}\", which asks OpenCL drivers, cannot be started ({}); put it right, or use --backend=cpu",
+                      arguments.front(), std::system_category().message(failed)));
     answer_.close(1);
     words_.close(1);
   }
@@ -137,7 +160,8 @@ class Child {
   /// By the terminal, the user or the machine.
   bool was_stopped() const {
     constexpr std::array<int, 4> from_outside = {SIGINT, SIGTERM, SIGHUP, SIGKILL};
-    return WIFSIGNALED(status_) && std::find(from_outside.begin(), from_outside.end(), WTERMSIG(status_)) != from_outside.end();
+    return WIFSIGNALED(status_) &&
+           std::find(from_outside.begin(), from_outside.end(), WTERMSIG(status_)) != from_outside.end();
   }
 
   std::string how_it_ended() const {
@@ -154,7 +178,8 @@ class Child {
     if (last == std::string::npos) return {};
     const std::size_t begin = words.find_last_of('\n', last) + 1;
     std::string line = words.substr(begin, std::min(last + 1 - begin, longest));
-    std::replace_if(line.begin(), line.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
     return line;
   }
 
@@ -167,8 +192,9 @@ class Child {
 
 }  // namespace
 
-ChildAnswer ask_child(const std::vector<std::string>& question, std::chrono::seconds limit, const Check& check) {
-  return Child(question).wait(limit, check);
+ChildAnswer ask_child(const std::vector<std::string>& question, const std::string& input, std::chrono::seconds limit,
+                      const Check& check) {
+  return Child(question, input).wait(limit, check);
 }
 
 }  // namespace rpf

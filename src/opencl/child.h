@@ -17,9 +17,10 @@ struct ChildAnswer {
   std::string text;       ///< the answer, or how the child ended with its last words
 };
 
-/// Runs rpf_probe (src/probe) with these arguments and waits for its answer, `limit` at most. Throws Error(device) where
-/// that program is missing.
-ChildAnswer ask_child(const std::vector<std::string>& question, std::chrono::seconds limit, const Check& check);
+/// Runs rpf_probe (src/probe) with these arguments, and `input` on its standard input, and waits for its answer,
+/// `limit` at most. Throws Error(device) where that program is missing.
+ChildAnswer ask_child(const std::vector<std::string>& question, const std::string& input, std::chrono::seconds limit,
+                      const Check& check);
 
 /// What rpf_probe prints behind a whole answer.
 constexpr const char* end_of_answer = "\nend of answer\n";

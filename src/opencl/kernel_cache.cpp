@@ -109,7 +109,8 @@ std::vector<std::string> environment_with_our_cache() {
   std::vector<std::string> result;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const auto begins = [&](const char* name) { return std::string(*entry).rfind(name, 0) == 0; };
-    if (our_folder().empty() || std::none_of(std::begin(replaced), std::end(replaced), begins)) result.emplace_back(*entry);
+    if (our_folder().empty() || std::none_of(std::begin(replaced), std::end(replaced), begins))
+      result.emplace_back(*entry);
   }
   if (!our_folder().empty()) result.push_back("RPF_CACHE_DIR=" + our_folder().parent_path().string());
   return result;

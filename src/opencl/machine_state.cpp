@@ -76,7 +76,8 @@ std::string system_state() {
 
 /// Of the loader, OpenCL's and the drivers'.
 std::string environment_state() {
-  constexpr const char* prefixes[] = {"PATH=", "LD_", "OCL_", "OPENCL_", "POCL_", "CUDA_", "ROC", "HIP_", "GPU_", "TMPDIR="};
+  constexpr const char* prefixes[] = {"PATH=", "LD_", "OCL_", "OPENCL_", "POCL_",
+                                      "CUDA_", "ROC", "HIP_", "GPU_",    "TMPDIR="};
   std::vector<std::string> found;
   for (char** entry = environ; *entry != nullptr; ++entry)
     for (const std::string prefix : prefixes)
@@ -91,13 +92,14 @@ std::string environment_state() {
 /// The files that name the drivers, and the libraries that they name.
 std::string driver_state() {
   std::vector<std::string> libraries = split(environment("LD_LIBRARY_PATH"));
-  for (const char* folder : {"/usr/local/lib", "/usr/lib/x86_64-linux-gnu", "/usr/lib/aarch64-linux-gnu", "/usr/lib64", "/usr/lib"})
+  for (const char* folder :
+       {"/usr/local/lib", "/usr/lib/x86_64-linux-gnu", "/usr/lib/aarch64-linux-gnu", "/usr/lib64", "/usr/lib"})
     libraries.emplace_back(folder);
   const std::string wanted = environment("OCL_ICD_VENDORS");
   std::vector<fs::path> files;
   std::error_code failed;
-  for (fs::directory_iterator entry(wanted.empty() ? "/etc/OpenCL/vendors" : wanted, failed), end; !failed && entry != end;
-       entry.increment(failed))
+  for (fs::directory_iterator entry(wanted.empty() ? "/etc/OpenCL/vendors" : wanted, failed), end;
+       !failed && entry != end; entry.increment(failed))
     files.push_back(entry->path());
   if (files.empty() && !wanted.empty()) files.emplace_back(wanted);
   std::sort(files.begin(), files.end());
@@ -124,8 +126,8 @@ std::string limits() {
 /// What drivers read of the machine, and where they write: a file system that does not run programs matters.
 std::string mounts() {
   std::string text;
-  for (const char* path : {"/sys/devices/system/cpu", "/sys/devices/system/node", "/proc/cpuinfo", "/proc/meminfo", "/dev/shm",
-                           "/dev/dri", "/dev/kfd", "/dev/nvidiactl"})
+  for (const char* path : {"/sys/devices/system/cpu", "/sys/devices/system/node", "/proc/cpuinfo", "/proc/meminfo",
+                           "/dev/shm", "/dev/dri", "/dev/kfd", "/dev/nvidiactl"})
     text += fmt::format("{} {}\n", path, ::access(path, R_OK) == 0);
   for (const fs::path& folder : {fs::path("/tmp"), kernel_cache_folder()}) {
     struct statvfs system {};
@@ -139,8 +141,8 @@ std::string mounts() {
 }  // namespace
 
 std::string machine_state() {
-  return system_state() + environment_state() + driver_state() + first_found("ld", split(environment("PATH"))) + limits() +
-         mounts();
+  return system_state() + environment_state() + driver_state() + first_found("ld", split(environment("PATH"))) +
+         limits() + mounts();
 }
 
 }  // namespace rpf

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <map>
+#include <mutex>
+#include <set>
 
 #include "opencl/cache_index.h"
 #include "opencl/cache_seal.h"
@@ -20,8 +21,9 @@ using std::chrono::seconds;
 /// kernels compile in some seconds.
 constexpr seconds to_answer{20}, to_compile{180};
 
-constexpr const char* what_to_do = "use --backend=cpu; another driver is chosen with OCL_ICD_VENDORS, "
-                                   "and `rpf devices` asks again";
+constexpr const char* what_to_do =
+    "use --backend=cpu; another driver is chosen with OCL_ICD_VENDORS, "
+    "and `rpf devices` asks again";
 
 [[noreturn]] void fail(const std::string& reason) {
   throw Error(ErrorKind::device, fmt::format("the OpenCL driver {}; {}", reason, what_to_do));
@@ -46,19 +48,20 @@ Answer without_errors(const Answer& answer) {
 
 Answer ask(const std::vector<std::string>& question, seconds limit, const Check& check) {
   prepare_kernel_cache();
-  const ChildAnswer answer = ask_child(question, limit, check);
+  const ChildAnswer answer = ask_child(question, "", limit, check);
   if (!answer.complete) fail(answer.text);
   return without_errors(parsed(answer.text));
 }
 
 /// The same, where how a driver fails is remembered: an abort or a hang, no mere error.
-Answer ask_and_keep(const std::vector<std::string>& question, const std::string& name, seconds limit, const Check& check) {
+Answer ask_and_keep(const std::vector<std::string>& question, const std::string& input, const std::string& name,
+                    seconds limit, const Check& check) {
   const Verdicts verdicts(verdict_folder());
   if (const auto verdict = verdicts.find(name)) {
     if (verdict->works) return {"ok", {}};
     fail(verdict->reason + " within the last hour");
   }
-  const ChildAnswer answer = ask_child(question, limit, check);
+  const ChildAnswer answer = ask_child(question, input, limit, check);
   if (!answer.complete && !answer.stopped) verdicts.keep(name, {false, answer.text});
   if (!answer.complete) fail(answer.text);
   Answer result = without_errors(parsed(answer.text));
@@ -81,10 +84,12 @@ std::string probe_device(int index) {
 }
 
 void require_working_device(const std::string& wanted) {
-  static std::map<std::string, bool> known;  // in this process
-  if (known[wanted]) return;
+  static std::mutex mutex;
+  static std::set<std::string> known;  // in this process
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (known.count(wanted) != 0) return;
   prepare_kernel_cache();
-  const Answer answer = ask_and_keep({"test", wanted}, name_of("test " + wanted), to_answer, {});
+  const Answer answer = ask_and_keep({"test", wanted}, "", name_of("test " + wanted), to_answer, {});
   if (answer.kind != "ok") {
     const Answer failure = parsed(answer.rest);
     throw Error(
@@ -93,7 +98,7 @@ void require_working_device(const std::string& wanted) {
                     "`rpf devices`",
                     failure.kind, failure.rest));
   }
-  known[wanted] = true;
+  known.insert(wanted);
 }
 
 void require_compiled(const KernelBuild& build, const Check& check) {
@@ -103,7 +108,8 @@ void require_compiled(const KernelBuild& build, const Check& check) {
   const bool is_gone = build.in_our_cache && !kernel_cache_folder().empty() &&
                        indexed_programs(kernel_cache_folder(), build.source).empty();
   if (const auto verdict = verdicts.find(name); is_gone && verdict && verdict->works) verdicts.forget(name);
-  ask_and_keep({"build", std::to_string(build.device), build.file, build.definitions}, name, to_compile, check);
+  ask_and_keep({"build", std::to_string(build.device), build.file, build.definitions}, build.more, name, to_compile,
+               check);
 }
 
 }  // namespace rpf

@@ -1,6 +1,8 @@
 #include "opencl/rehearsal.h"
 
 #include <array>
+#include <iostream>
+#include <iterator>
 
 #include "opencl/probe.h"
 #include "opencl/self_test.h"
@@ -10,7 +12,8 @@ namespace {
 
 constexpr std::size_t buffer_bytes = 64 << 10, largest_argument = 1024;
 
-/// Zeros, of the one size that the driver accepts, or more of them than enough: PoCL does not know the size of structures.
+/// Zeros, of the one size that the driver accepts, or more of them than enough: PoCL does not know the size of
+/// structures.
 void set_to_zeros(cl::Kernel& kernel, cl_uint number) {
   const std::array<char, largest_argument> zeros{};
   for (std::size_t bytes = zeros.size(); bytes > 0; --bytes)
@@ -36,7 +39,8 @@ std::string answer(const std::vector<std::string>& question) {
     return failure.empty() ? "ok\n" : "differs\n" + session.device().getInfo<CL_DEVICE_NAME>() + "\n" + failure;
   }
   if (question.at(0) == "build") {
-    rehearse(Session::of(std::stoi(question.at(1))), question.at(2), question.at(3));
+    rehearse(Session::of(std::stoi(question.at(1))), question.at(2), question.at(3),
+             {std::istreambuf_iterator<char>(std::cin), {}});
     return "ok\n";
   }
   throw Error(ErrorKind::usage, "rpf_probe: list, test DEVICE or build DEVICE FILE DEFINITIONS is expected");
@@ -44,9 +48,10 @@ std::string answer(const std::vector<std::string>& question) {
 
 }  // namespace
 
-void rehearse(Session& session, const std::string& file, const std::string& definitions) {
+void rehearse(Session& session, const std::string& file, const std::string& definitions, const std::string& more) {
   on_device("a first run of " + file, [&] {
-    cl::Program program = session.compile(file, definitions);
+    cl::Program program = session.compile(file, definitions, more);
+    if (!more.empty()) return;
     std::vector<cl::Kernel> kernels;
     program.createKernels(&kernels);
     const cl::Buffer zeros = session.copy(std::vector<char>(buffer_bytes, 0));

@@ -7,8 +7,9 @@
 
 namespace rpf {
 
-/// Compiles a program of kernels/`file` and launches each of its kernels with zeros for all arguments and buffers of
-/// zeros. Every kernel must take that for nothing to do. Throws Error(device).
-void rehearse(Session& session, const std::string& file, const std::string& definitions);
+/// Compiles a program as Session::program() does, and launches each of its kernels with zeros for all arguments and
+/// buffers of zeros. Every kernel of kernels/ must take that for nothing to do; generated ones (`more`) need not, and
+/// are only compiled. Throws Error(device).
+void rehearse(Session& session, const std::string& file, const std::string& definitions, const std::string& more);
 
 }  // namespace rpf

@@ -41,9 +41,7 @@ std::string key_of(const std::string& file, const std::string& definitions, cons
   return file + " " + definitions + "\n" + more;
 }
 
-bool is_pocl(const cl::Device& device) {
-  return device.getInfo<CL_DEVICE_VERSION>().find("PoCL") != std::string::npos;
-}
+bool is_pocl(const cl::Device& device) { return device.getInfo<CL_DEVICE_VERSION>().find("PoCL") != std::string::npos; }
 
 /// Whether this is PoCL on a processor whose AVX-512 counts bits in vectors; frame.cl says what for.
 bool has_new_avx512(const cl::Device& device) {

@@ -27,7 +27,9 @@ fs::file_time_type::duration age_of(const fs::path& file) {
 
 }  // namespace
 
-fs::path Verdicts::file_of(const std::string& question) const { return folder_ / fmt::format("{:016x}", checksum(question)); }
+fs::path Verdicts::file_of(const std::string& question) const {
+  return folder_ / fmt::format("{:016x}", checksum(question));
+}
 
 std::optional<Verdict> Verdicts::find(const std::string& question) const {
   if (folder_.empty()) return std::nullopt;

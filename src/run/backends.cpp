@@ -50,6 +50,7 @@ void load_backend(std::unique_ptr<Backend>& backend, const Settings& settings, c
     if (settings.backend != "auto") throw;
     backend = make_replacement(settings, e);
   }
+  backend->watch(check);
   backend->load(frame, std::move(colors), plan);
 }
 

@@ -15,8 +15,8 @@ namespace rpf {
 /// Error(device) where it cannot work.
 std::unique_ptr<Backend> make_backend(const Settings& settings);
 
-/// load() of a backend of make_backend(), after get_ready(). Where "auto" chose one that does not get ready it becomes the
-/// reference, whose description then says why.
+/// load() of a backend of make_backend(), after get_ready() and watch(). Where "auto" chose one that does not get ready
+/// it becomes the reference, whose description then says why.
 void load_backend(std::unique_ptr<Backend>& backend, const Settings& settings, const Frame& frame,
                   std::vector<float> colors, const Plan& plan, const std::function<void()>& check);
 
