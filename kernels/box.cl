@@ -144,7 +144,7 @@ __kernel void filter_box(__global const uint* first_sample, __global const float
   slot.neighbors = neighbors + item * pass.capacity;
   slot.records = copies + item * RPF_COLUMNS * (pass.capacity / RPF_LANES);
   slot.columns = slot_columns + item * RPF_COLUMNS * RPF_STRETCH;
-  slot.sums = sums + item * pass.most_samples * (1 + RPF_CARRIED);
+  slot.sums = sums + item * (pass.most_samples * (1 + RPF_CARRIED) + 1);
   means.count = pass.coordinates;
   means.variable = variables;
   means.scale = scales;

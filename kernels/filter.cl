@@ -235,10 +235,10 @@ __kernel void filter_tile(__global const uint* first_sample, __global const floa
                      records + item * RPF_CHUNKS * pass.capacity,
                      planes + item * RPF_VARIABLES * rpf_plane_words(pass.capacity) * RPF_BIN_VECTORS,
                      columns + item * RPF_COLUMNS * RPF_STRETCH,
-                     sums + item * pass.most_samples * (1 + RPF_CARRIED)};
+                     sums + item * (pass.most_samples * (1 + RPF_CARRIED) + 1)};
   const Output output = {next_colors, statistics, explained};
   const Area tile = {pass.tile_x, pass.tile_y, pass.tile_x + pass.tile_width, pass.tile_y + pass.tile_height};
-  const int side = (int)pass.block, first_x = tile.x / side, first_y = tile.y / side;
+  const int side = max((int)pass.block, 1), first_x = tile.x / side, first_y = tile.y / side;
   const uint across = (uint)((tile.end_x - 1) / side - first_x + 1),
              down = (uint)((tile.end_y - 1) / side - first_y + 1);
   trace.at = rpf_lay_out_trace(RPF_RANDOM, RPF_FEATURES, RPF_CARRIED,

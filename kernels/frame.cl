@@ -59,7 +59,7 @@ typedef struct {
   __global float16* records;  // [RPF_CHUNKS][capacity] of the neighbors; in box.cl [RPF_COLUMNS][capacity / RPF_LANES]
   __global ulong8* planes;    // [RPF_VARIABLES][words][RPF_BIN_VECTORS] one bit a neighbor and bin (statistics.cl)
   __global float16* columns;  // [RPF_COLUMNS][RPF_STRETCH] a stretch of neighbors, RPF_LANES in a vector (weighting.cl)
-  __global float16* sums;     // [own samples][1 + RPF_CARRIED] of weights and weighted colors
+  __global float16* sums;  // [own samples][1 + RPF_CARRIED] of weights and weighted colors, and one more (weighting.cl)
 } Slot;
 
 // Every intermediate value of one pixel, where it is asked for.

@@ -39,6 +39,8 @@ typedef struct {
   int outlier_step;             // 1: section 7 follows
   int reach;                    // of the box of section 8: (b - 1) / 2
   uint coordinates;             // of its distances
+  uint first_own, end_own;      // of a long pixel: the own samples of this launch (weighting.cl)
+  uint first_block, end_block;  // and the neighbors that it looks at to explain it, in blocks of RPF_LANES
 } rpf_pass;
 
 #ifdef __cplusplus

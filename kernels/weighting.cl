@@ -3,6 +3,21 @@
 // What a pixel is filtered with (Means: own, neighbors, count; fill_columns; load_own) comes from coordinates.cl or
 // box.cl.
 
+// A pixel of very many samples is long: it takes several launches, so that none takes seconds. Each finds the same
+// neighborhood, and filters a part of the own samples; what is filtered, and the sums in the slot, stay for the next.
+// Then one more replaces outliers. RPF_LONG: 1 where the frame has such pixels.
+#ifndef RPF_LONG
+#define RPF_LONG 0
+#endif
+
+static uint first_own(const rpf_pass* pass, const Means* means) {
+  return RPF_LONG ? min(pass->first_own, means->own) : 0;
+}
+
+static uint end_own(const rpf_pass* pass, const Means* means) {
+  return RPF_LONG ? min(pass->end_own, means->own) : means->own;
+}
+
 // The tree of rpf_lanes_total.
 static float lanes_total(float16 sum) {
   const float8 a = sum.lo + sum.hi;
@@ -76,14 +91,15 @@ static void sum_stretch(const Slot* slot, const Means* means, float (*own)[RPF_C
 // Adds a stretch to the sums of all own samples.
 static void add_stretch(const rpf_pass* pass, const Slot* slot, const Means* means, uint first, uint last,
                         const Trace* trace) {
-  for (uint begin = 0; begin < means->own; begin += RPF_BATCH) {
+  const uint end = end_own(pass, means);
+  for (uint begin = first_own(pass, means); begin < end; begin += RPF_BATCH) {
     float own[RPF_BATCH][RPF_COORDINATES];
     Sums stretch;
     load_own(pass, slot, means, begin, own);
     sum_stretch(slot, means, own, begin, first, last, trace, &stretch);
 #pragma unroll
     for (uint i = 0; i < RPF_BATCH; ++i) {
-      if (begin + i >= means->own) continue;
+      if (begin + i >= end) continue;
       __global float16* sums = slot->sums + (begin + i) * (1 + RPF_CARRIED);
       sums[0] += stretch.weight[i];
       for (int c = 0; c < RPF_CARRIED; ++c) sums[1 + c] += stretch.color[i][c];
@@ -114,14 +130,15 @@ static void filter_samples(const rpf_pass* pass, const Slot* slot, const Means* 
     ranges.smallest[c] = INFINITY;
     ranges.largest[c] = -INFINITY;
   }
-  for (uint i = 0; i < means->own * (1 + RPF_CARRIED); ++i) slot->sums[i] = 0.0f;
+  const uint begin = first_own(pass, means), end = end_own(pass, means);
+  for (uint i = begin * (1 + RPF_CARRIED); i < end * (1 + RPF_CARRIED); ++i) slot->sums[i] = 0.0f;
   for (uint first = 0; first < blocks; first += RPF_STRETCH) {
     const uint last = min(first + RPF_STRETCH, blocks);
     fill_columns(pass, slot, means, first, last);
     widen(slot, last - first, &ranges);
     add_stretch(pass, slot, means, first, last, trace);
   }
-  for (uint i = 0; i < means->own; ++i) {
+  for (uint i = begin; i < end; ++i) {
     __global const float16* sums = slot->sums + i * (1 + RPF_CARRIED);
     for (int c = 0; c < RPF_CARRIED; ++c)
       out[i * RPF_CARRIED + c] = rpf_filtered(lanes_total(sums[1 + c]), lanes_total(sums[0]),
@@ -130,11 +147,14 @@ static void filter_samples(const rpf_pass* pass, const Slot* slot, const Means* 
 }
 
 // After filter_samples(): rpf_effective_samples() of the pixel. All own samples are added up before squares are, hence
-// a way of its own through the neighborhood. Only `rpf explain` asks for it.
+// a way of its own through the neighborhood. Only `rpf explain` asks for it. Of a long pixel a launch adds some blocks
+// of neighbors to the squares so far, which stand behind the sums.
 static float effective_samples(const rpf_pass* pass, const Slot* slot, const Means* means) {
-  const uint blocks = rpf_blocks(means->neighbors);
-  float16 squares = 0.0f;
-  for (uint first = 0; first < blocks; first += RPF_STRETCH) {
+  const uint blocks = RPF_LONG ? min(rpf_blocks(means->neighbors), pass->end_block) : rpf_blocks(means->neighbors);
+  const uint begin_block = RPF_LONG ? pass->first_block : 0;
+  __global float16* kept = slot->sums + pass->most_samples * (1 + RPF_CARRIED);
+  float16 squares = begin_block > 0 ? kept[0] : 0.0f;
+  for (uint first = begin_block; first < blocks; first += RPF_STRETCH) {
     const uint last = min(first + RPF_STRETCH, blocks);
     fill_columns(pass, slot, means, first, last);
     for (uint block = first; block < last; ++block) {
@@ -150,6 +170,7 @@ static float effective_samples(const rpf_pass* pass, const Slot* slot, const Mea
       squares += share * share;
     }
   }
+  if (RPF_LONG) kept[0] = squares;
   return rpf_effective_samples(means->own, lanes_total(squares));
 }
 

@@ -89,6 +89,10 @@ std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, 
 /// The names accepted by Settings::backend, "auto" among them.
 std::vector<std::string> backend_names();
 
+/// Bytes that this process can have: the least of the machine's memory, the limits of its control groups and of those
+/// above them (version 1 or 2), and `ulimit -v` and `-d`.
+std::uint64_t available_memory();
+
 /// The number of threads that 0 stands for: cores in the process's affinity mask.
 int available_threads();
 

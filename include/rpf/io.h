@@ -68,8 +68,15 @@ SampleBuffer read_samples(const std::string& path, const SampleReadOptions& opti
 void write_samples(const std::string& path, const SampleBuffer& samples,
                    const std::vector<std::string>& half_slots = {});
 
-/// Reads any image that OpenImageIO knows as linear float. Throws Error(input).
-Image read_image(const std::string& path);
+/// What the header of an image says: windows, channels and metadata. Has no pixels. Throws Error(input).
+Image inspect_image(const std::string& path);
+
+/// Peak bytes of reading that image.
+std::uint64_t image_bytes(const Image& header);
+
+/// Reads any image that OpenImageIO knows as linear float. Throws Error(input), and Error(memory) where that needs more
+/// than `max_memory` bytes; 0: no limit.
+Image read_image(const std::string& path, std::uint64_t max_memory = 0);
 
 /// Writes an image; the extension chooses the format. Formats of 8 bits (png, jpg, ...) get R, G, B (A) with the sRGB
 /// transfer function, clamped to [0,1]; all others get linear float and the metadata. Throws Error(output).

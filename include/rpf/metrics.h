@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "rpf/image.h"
 
@@ -32,6 +33,9 @@ struct ImageError {
   /// Mean of HDR-FLIP, [0, 1], 0 is best: of LDR-FLIP's maximum over exposures that the reference chooses.
   double hdr_flip = 0;
 };
+
+/// Peak bytes of comparing two images of so many pixels, beside the images.
+std::uint64_t comparing_bytes(std::uint64_t pixels);
 
 /// Compares the R, G, B channels by name. Throws Error(input) where sizes differ or a channel is missing.
 ImageError compare_images(const Image& image, const Image& reference);

@@ -57,6 +57,10 @@ struct SampleBuffer {
   void validate() const;
 };
 
+/// The slots that samples_of_image() makes of an image's channels; does not look at its pixels. Throws Error(input) for
+/// an image without R, G and B.
+SampleLayout layout_of_image(const Image& image);
+
 /// An image as a frame of one sample a pixel, in the pixel's center: R, G, B, A where there is one, no random
 /// parameters and no features. An image of one channel is gray. Throws Error(input) for an image without R, G and B.
 SampleBuffer samples_of_image(const Image& image);

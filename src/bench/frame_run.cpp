@@ -39,7 +39,8 @@ FrameRun run_frame(const FrameJob& job, const Control& control) {
   const CostClock clock;
   Result result = filter(read_samples(job.samples, job.read), job.settings, control);
   FrameRun run{clock.elapsed(), std::move(result.report), {}};
-  if (!job.reference.empty()) run.error = compare_images(result.image, read_image(job.reference));
+  if (!job.reference.empty())
+    run.error = compare_images(result.image, read_image(job.reference, job.settings.max_memory));
   return run;
 }
 

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 
 #include "cli/commands.h"
 #include "cli/compare_report.h"
+#include "cli/environment.h"
 #include "cli/filter_options.h"
 #include "cli/print.h"
 #include "report/heat_map.h"
@@ -24,6 +26,7 @@ struct Options {
   std::string zoom;  ///< of side_by_side; empty: where the first image's error is largest
   std::string diff;
   bool json = false;
+  std::uint64_t max_memory_mb = 0;  ///< 0: not given
   double max_error = std::numeric_limits<double>::infinity();
   bool limited = false;  ///< max_error was given
 };
@@ -69,11 +72,34 @@ bool above_limit(const Comparison& comparison, double limit) {
   return above;
 }
 
+/// Needs more than the limit: refused before anything is read.
+void check_memory(const Options& options, std::uint64_t limit) {
+  constexpr std::uint64_t picture = 3 * sizeof(float);
+  std::uint64_t images = 0, pixels = 0;
+  for (const std::string& file : options.files) {
+    const Image header = inspect_image(file);
+    images += image_bytes(header);
+    pixels = std::max<std::uint64_t>(pixels, header.data_window.pixel_count());
+  }
+  // Side by side all of them are there twice, and as big as the picture once more.
+  const bool writes = !options.side_by_side.empty() || !options.diff.empty();
+  const std::uint64_t pictures = writes ? 3 * options.files.size() * pixels * picture : 0;
+  const std::uint64_t need = images + std::max(comparing_bytes(pixels), pictures);
+  if (need > limit)
+    throw Error(
+        ErrorKind::memory,
+        fmt::format("compare: {} images need {:.0f} MB of memory, the limit is {:.0f} MB; raise "
+                    "--max-memory, or compare fewer or smaller ones",
+                    options.files.size(), static_cast<double>(need) / megabyte, static_cast<double>(limit) / megabyte));
+}
+
 int run(const Options& options) {
   if (options.files.size() < 2)
     throw Error(ErrorKind::usage, "compare: one or more images and, last, their reference are expected");
+  const std::uint64_t limit = memory_limit(options.max_memory_mb);
+  check_memory(options, limit);
   std::vector<Image> images;
-  for (const std::string& file : options.files) images.push_back(read_image(file));
+  for (const std::string& file : options.files) images.push_back(read_image(file, limit));
   const Comparison comparison = compare(options, images);
   if (!options.side_by_side.empty())
     write_image(options.side_by_side, report::side_by_side(images, crop_of(options.zoom, images)));
@@ -101,6 +127,7 @@ Command add_compare_command(CLI::App& app) {
       ->type_name("WxH+X+Y");
   command->add_option("--diff", options->diff, "Also write heat maps of the relative squared error, with a legend")
       ->type_name("FILE.png");
+  add_memory_option(*command, options->max_memory_mb);
   command->add_flag("--json", options->json, "Print JSON in place of the tables");
   CLI::Option* limit =
       command->add_option("--max-error", options->max_error, "Exit code 1 where an image's relMSE is above this")

@@ -1,12 +1,8 @@
 #include "cli/environment.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <limits>
 #include <string>
 
@@ -15,8 +11,6 @@
 
 namespace rpf::cli {
 namespace {
-
-constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
 /// A positive number from the environment, 0 where the variable is not set.
 int positive_number(const char* variable) {
@@ -29,22 +23,6 @@ int positive_number(const char* variable) {
               fmt::format("environment variable {}='{}': a positive number is expected", variable, text));
 }
 
-std::uint64_t machine_memory() {
-  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
-}
-
-/// The limit of the control group (version 2), where there is one.
-std::uint64_t group_memory() {
-  std::uint64_t bytes = 0;
-  std::ifstream file("/sys/fs/cgroup/memory.max");
-  return file >> bytes ? bytes : unlimited;
-}
-
-std::uint64_t address_space() {
-  rlimit limit{};
-  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? limit.rlim_cur : unlimited;
-}
-
 }  // namespace
 
 int default_threads() {
@@ -53,6 +31,10 @@ int default_threads() {
   return available_threads();
 }
 
-std::uint64_t default_memory_limit() { return std::min({machine_memory(), group_memory(), address_space()}) / 10 * 9; }
+std::uint64_t memory_limit(std::uint64_t megabytes) {
+  constexpr std::uint64_t megabyte = 1 << 20, most = std::numeric_limits<std::uint64_t>::max();
+  if (megabytes == 0) return available_memory() / 10 * 9;
+  return megabytes > most / megabyte ? most : megabytes * megabyte;
+}
 
 }  // namespace rpf::cli

@@ -8,8 +8,8 @@ namespace rpf::cli {
 /// SLURM_CPUS_PER_TASK or CUE_THREADS, then the affinity mask.
 int default_threads();
 
-/// Bytes that a run may take when --max-memory is not given: nine tenths of what the machine, the control group or
-/// `ulimit -v` allow, whichever is least.
-std::uint64_t default_memory_limit();
+/// Bytes that a run may take: --max-memory in megabytes, for which the parser reads RPF_MAX_MEMORY_MB too; where that
+/// is 0, because neither is given, nine tenths of available_memory().
+std::uint64_t memory_limit(std::uint64_t megabytes);
 
 }  // namespace rpf::cli

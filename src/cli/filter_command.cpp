@@ -31,12 +31,12 @@ std::string list(const std::vector<std::string>& names) {
 bool is_folder(const std::string& path) { return fs::is_directory(path) || path.back() == '/'; }
 
 /// Needs more than the limit: refused before anything is read.
-void check_budget(const SampleFileInfo& info, const Settings& settings, bool tell) {
-  const auto need = predicted_memory(info, settings);
+void check_budget(const FilterInput& input, const Settings& settings, bool tell) {
+  const auto need = std::max(predicted_memory(input.info, settings), input.image_bytes);
   const double need_mb = static_cast<double>(need) / megabyte,
                limit_mb = static_cast<double>(settings.max_memory) / megabyte;
   if (tell) print("peak memory: {:.0f} MB of at most {:.0f} MB, {} threads\n", need_mb, limit_mb, settings.threads);
-  check_need(info, "filtering", need, settings.max_memory);
+  check_need(input.info, "filtering", need, settings.max_memory);
 }
 
 /// What a pass with fixed weights did.
@@ -142,17 +142,17 @@ int run(const FilterOptions& options, const std::vector<std::string>& arguments)
   const double budget = time_budget_of(options);
   Settings settings = settings_of(options);
   SampleReadOptions read_options = read_options_of(options.map, settings.max_memory);
-  FilterInput input = open_input(options.input, settings.method, read_options);
+  const FilterInput input = open_input(options.input, settings.method, read_options);
   const SampleFileInfo& info = input.info;
-  if (input.image && options.sigma_color == 0) settings.sigma_color = image_sigma_color;
+  if (input.is_image() && options.sigma_color == 0) settings.sigma_color = image_sigma_color;
   check_features(options, info);
-  check_budget(info, settings, options.verbose || options.dry_run);
+  check_budget(input, settings, options.verbose || options.dry_run);
   if (!options.output.empty()) check_target(options.output);
   if (!options.aov.empty() && !is_folder(options.aov)) check_target(options.aov);
   if (options.dry_run) return 0;
 
   read_options.slots = needed_layout(info, settings).slots;
-  SampleBuffer samples = input.image ? std::move(*input.image) : read_samples(options.input, read_options);
+  SampleBuffer samples = read_input(input, read_options);
   const bench::Cost reading = clock.elapsed();
   if (budget > 0) settings = settings_within(budget - reading.wall, samples, settings, options, arguments);
   const Result result = with_progress(options.quiet ? "never" : options.progress, [&](const Control& control) {

@@ -8,13 +8,13 @@
 namespace rpf::cli {
 namespace {
 
-SampleFileInfo info_of(const std::string& path, const SampleBuffer& samples) {
+SampleFileInfo info_of(const std::string& path, const Image& header, const SampleLayout& layout) {
   SampleFileInfo info;
   info.path = path;
-  info.data_window = samples.data_window;
-  info.display_window = samples.display_window;
-  for (const std::string& slot : samples.layout.slots) info.channels.push_back({slot, slot, PixelType::full_float});
-  info.sample_count = samples.sample_count();
+  info.data_window = header.data_window;
+  info.display_window = header.display_window;
+  for (const std::string& slot : layout.slots) info.channels.push_back({slot, slot, PixelType::full_float});
+  info.sample_count = header.data_window.pixel_count();
   info.min_samples = info.max_samples = 1;
   return info;
 }
@@ -22,14 +22,20 @@ SampleFileInfo info_of(const std::string& path, const SampleBuffer& samples) {
 }  // namespace
 
 FilterInput open_input(const std::string& path, Method method, const SampleReadOptions& options) {
-  if (!filters_images(method) || is_sample_file(path)) return {inspect_samples(path, options), {}};
+  if (!filters_images(method) || is_sample_file(path)) return {inspect_samples(path, options), 0};
   if (!options.slot_map.empty())
     throw Error(ErrorKind::usage,
                 fmt::format("--map: \"{}\" is an image; only the channels of samples have slots", path));
-  FilterInput input;
-  input.image = samples_of_image(read_image(path));
-  input.info = info_of(path, *input.image);
-  return input;
+  const Image header = inspect_image(path);
+  const SampleLayout layout = layout_of_image(header);
+  const std::uint64_t samples =
+      header.data_window.pixel_count() * (layout.size() * sizeof(float) + sizeof(std::uint32_t));
+  return {info_of(path, header, layout), image_bytes(header) + samples};
+}
+
+SampleBuffer read_input(const FilterInput& input, const SampleReadOptions& options) {
+  if (!input.is_image()) return read_samples(input.info.path, options);
+  return samples_of_image(read_image(input.info.path, options.max_memory));
 }
 
 }  // namespace rpf::cli

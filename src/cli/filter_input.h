@@ -1,7 +1,7 @@
 // What `rpf` filters: a sample file, or an image where the method needs no samples.
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <string>
 
 #include "rpf/io.h"
@@ -10,11 +10,16 @@
 namespace rpf::cli {
 
 struct FilterInput {
-  SampleFileInfo info;                ///< of an image: as if it were a sample file
-  std::optional<SampleBuffer> image;  ///< its pixels as samples; nothing: samples are still to be read
+  SampleFileInfo info;            ///< of an image: as if it were a sample file
+  std::uint64_t image_bytes = 0;  ///< peak bytes of reading an image; 0: samples
+
+  bool is_image() const { return image_bytes > 0; }
 };
 
-/// Reads the header of a sample file, or a whole image. Throws Error(input).
+/// Reads the header of a sample file or an image. Throws Error(input).
 FilterInput open_input(const std::string& path, Method method, const SampleReadOptions& options);
+
+/// Reads the rest of it. Throws Error(input), Error(memory).
+SampleBuffer read_input(const FilterInput& input, const SampleReadOptions& options);
 
 }  // namespace rpf::cli

@@ -190,15 +190,18 @@ void add_machine_options(CLI::App& app, FilterOptions& o) {
       ->check(CLI::PositiveNumber)
       ->envname("RPF_NUM_THREADS")
       ->group(group);
-  app.add_option("--max-memory", o.max_memory_mb, "Memory limit in MB")
-      ->check(CLI::PositiveNumber)
-      ->envname("RPF_MAX_MEMORY_MB")
-      ->group(group);
+  add_memory_option(app, o.max_memory_mb)->group(group);
   app.add_option("--progress", o.progress, "auto, never, always")
       ->check(CLI::IsMember({"auto", "never", "always"}))
       ->capture_default_str()
       ->group(group);
   app.add_flag("-q,--quiet", o.quiet, "Only errors")->group(group);
+}
+
+CLI::Option* add_memory_option(CLI::App& app, std::uint64_t& megabytes) {
+  return app.add_option("--max-memory", megabytes, "Memory limit in MB")
+      ->check(CLI::PositiveNumber)
+      ->envname("RPF_MAX_MEMORY_MB");
 }
 
 void add_filter_options(CLI::App& app, FilterOptions& options) {
@@ -278,7 +281,7 @@ Settings settings_of(const FilterOptions& o) {
   if (!o.crop.empty()) s.crop = window_of("--crop", o.crop);
   s.filter_features = !o.aov.empty();
   if (s.threads == 0) s.threads = default_threads();
-  s.max_memory = o.max_memory_mb > 0 ? o.max_memory_mb << 20 : default_memory_limit();
+  s.max_memory = memory_limit(o.max_memory_mb);
   return s;
 }
 

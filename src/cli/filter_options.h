@@ -31,6 +31,8 @@ struct FilterOptions {
 void add_channel_options(CLI::App& app, FilterOptions& options);
 /// Backend, threads, memory, what is told.
 void add_machine_options(CLI::App& app, FilterOptions& options);
+/// "--max-memory", shared by the commands that read; memory_limit() takes what it says.
+CLI::Option* add_memory_option(CLI::App& app, std::uint64_t& megabytes);
 void add_filter_options(CLI::App& app, FilterOptions& options);
 
 /// Makes these settings what the options are where they are not given, but for the backend, which is the command's.

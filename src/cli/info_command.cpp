@@ -66,13 +66,15 @@ Command add_info_command(CLI::App& app) {
   struct Options {
     std::string file;
     std::vector<std::string> map;
+    std::uint64_t max_memory_mb = 0;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("info", "Say what a sample file holds and what filtering it would take");
   command->add_option("FILE", options->file, "Sample file (deep OpenEXR or raw floats)")->required();
   add_map_option(*command, options->map);
+  add_memory_option(*command, options->max_memory_mb);
   return [options] {
-    const SampleReadOptions read_options = read_options_of(options->map, default_memory_limit());
+    const SampleReadOptions read_options = read_options_of(options->map, memory_limit(options->max_memory_mb));
     const SampleFileInfo info = inspect_samples(options->file, read_options);
     const SampleBuffer samples = read_samples(options->file, read_options);
     print_file(info);

@@ -31,6 +31,7 @@ class ProgressBar {
 template <class Work>
 auto with_progress(const std::string& mode, const Work& work) {
   const SignalGuard guard;
+  const LastResort last_resort;
   ProgressBar bar(mode);
   Control control;
   control.progress = [&](const Progress& progress) {

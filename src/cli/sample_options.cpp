@@ -22,13 +22,11 @@ void add_sample_file_options(CLI::App& command, SampleFileOptions& options) {
   command.add_option("INPUT", options.inputs, "Sample file")->required()->type_name("FILE");
   command.add_option("-o,--output", options.output, "Sample file to write")->required()->type_name("FILE");
   add_map_option(command, options.map);
-  command.add_option("--max-memory", options.max_memory_mb, "Memory limit in MB")
-      ->check(CLI::PositiveNumber)
-      ->envname("RPF_MAX_MEMORY_MB");
+  add_memory_option(command, options.max_memory_mb);
 }
 
 SampleReadOptions read_options_of(const SampleFileOptions& options) {
-  return read_options_of(options.map, options.max_memory_mb > 0 ? options.max_memory_mb << 20 : default_memory_limit());
+  return read_options_of(options.map, memory_limit(options.max_memory_mb));
 }
 
 std::vector<std::string> half_slots_of(const std::vector<SampleFileInfo>& files) {

@@ -20,6 +20,7 @@ struct Options {
   int reference = 0;  ///< samples a pixel; 0: not asked for
   std::vector<float> world_offset = {0, 0, 0};
   std::string progress = "auto";
+  std::uint64_t max_memory_mb = 0;  ///< 0: not given
   bool list = false, quiet = false;
   SceneOptions scene;  ///< the options that need no translation
 };
@@ -34,7 +35,7 @@ SceneOptions scene_options(const Options& o) {
   std::tie(scene.width, scene.height) = size_of(o.size);
   scene.sampler = sampler_of(o.sampler);
   for (std::size_t axis = 0; axis < 3; ++axis) scene.world_offset[axis] = o.world_offset.at(axis);
-  if (!o.density.empty()) scene.density = read_image(o.density);
+  if (!o.density.empty()) scene.density = read_image(o.density, memory_limit(o.max_memory_mb));
   if (scene.threads == 0) scene.threads = default_threads();
   if (o.reference > 0) scene.samples = o.reference;
   return scene;
@@ -64,11 +65,11 @@ void write_reference_image(const Options& o, const SceneOptions& scene) {
 }
 
 /// More than the machine has: refused before anything is rendered.
-void check_budget(const SceneOptions& scene) {
+void check_budget(const Options& o, const SceneOptions& scene) {
   constexpr double slots = 33;
   const double pixels = static_cast<double>(scene.width) * scene.height;
   const double need_mb = pixels * scene.samples * slots * sizeof(float) / megabyte;
-  const double limit_mb = static_cast<double>(default_memory_limit()) / megabyte;
+  const double limit_mb = static_cast<double>(memory_limit(o.max_memory_mb)) / megabyte;
   if (need_mb > limit_mb)
     throw Error(ErrorKind::memory, fmt::format("scene: the samples take {:.0f} MB of memory, the limit is {:.0f} MB; "
                                                "choose a smaller --spp or --size",
@@ -76,7 +77,7 @@ void check_budget(const SceneOptions& scene) {
 }
 
 void write_sample_file(const Options& o, const SceneOptions& scene) {
-  check_budget(scene);
+  check_budget(o, scene);
   const SampleBuffer samples =
       with_progress(progress_mode(o), [&](const Control& c) { return render_scene(o.name, scene, c); });
   const SignalGuard guard;
@@ -134,6 +135,7 @@ void add_world_options(CLI::App& command, Options& o) {
   command.add_option("-t,--threads", o.scene.threads, "Threads; all cores if not given")
       ->check(CLI::PositiveNumber)
       ->envname("RPF_NUM_THREADS");
+  add_memory_option(command, o.max_memory_mb);
   command.add_option("--progress", o.progress, "auto, never, always")
       ->check(CLI::IsMember({"auto", "never", "always"}))
       ->capture_default_str();

@@ -17,6 +17,19 @@ class SignalGuard {
   std::array<void (*)(int), 3> former_{};
 };
 
+/// Beside a SignalGuard, while nothing is being written: where the work has not stopped a second after a signal,
+/// because it is inside a driver or a library, the process ends.
+class LastResort {
+ public:
+  LastResort();
+  ~LastResort();
+  LastResort(const LastResort&) = delete;
+  LastResort& operator=(const LastResort&) = delete;
+
+ private:
+  void (*former_)(int);
+};
+
 /// The latest remembered signal, 0 if none.
 int received_signal();
 

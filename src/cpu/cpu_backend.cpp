@@ -4,9 +4,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <chrono>
+#include <future>
 #include <optional>
 
 #include "cpu/box.h"
+#include "cpu/must_stop.h"
 #include "cpu/neighborhood.h"
 #include "cpu/statistics.h"
 #include "cpu/weighting.h"
@@ -116,6 +119,7 @@ void CpuBackend::filter_block(int pass, const Window& block, const Window& tile,
   }
   for (const std::uint32_t pixel : pixels) {
     if (frame_->samples(pixel) == 0) continue;
+    if (must_stop()) return;
     fill_neighborhood(*frame_, *plan_, pass, pixel, w);
     if (pixel == *leader) measure(*plan_, pass, w);
     filter_pixel(*frame_, *plan_, pass, pixel, colors_, w,
@@ -140,17 +144,37 @@ void CpuBackend::run(int pass, const Window& tile) {
   const int side = plan_->statistics_block, first_x = tile.x / side, first_y = tile.y / side;
   const int across = (tile.x + tile.width - 1) / side - first_x + 1;
   const int down = (tile.y + tile.height - 1) / side - first_y + 1;
-  arena_.execute([&] {
-    tbb::parallel_for(0, across * down, [&](int i) {
-      const Window block = block_at(*frame_, *plan_, (first_x + i % across) * side, (first_y + i / across) * side);
-      filter_block(pass, block, tile, workspaces.local());
-    });
+  run_watched(across * down, [&](int i) {
+    const Window block = block_at(*frame_, *plan_, (first_x + i % across) * side, (first_y + i / across) * side);
+    filter_block(pass, block, tile, workspaces.local());
   });
+}
+
+void CpuBackend::run_watched(int count, const std::function<void(int)>& body) {
+  constexpr auto between_checks = std::chrono::milliseconds(100);
+  tbb::task_group_context context;
+  const auto work = [&] { arena_.execute([&] { tbb::parallel_for(0, count, body, context); }); };
+  if (!check_) return work();
+  std::future<void> done = std::async(std::launch::async, work);
+  try {
+    while (done.wait_for(between_checks) != std::future_status::ready) check_();
+  } catch (...) {
+    context.cancel_group_execution();
+    done.wait();
+    throw;
+  }
+  done.get();
 }
 
 void CpuBackend::end_pass() { colors_.swap(next_colors_); }
 
 PixelTrace CpuBackend::trace(int pass, std::uint32_t pixel) {
+  PixelTrace t;
+  run_watched(1, [&](int) { t = trace_here(pass, pixel); });
+  return t;
+}
+
+PixelTrace CpuBackend::trace_here(int pass, std::uint32_t pixel) const {
   Workspace w;
   PixelTrace t;
   t.pass = pass;

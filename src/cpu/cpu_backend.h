@@ -4,6 +4,8 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <functional>
+
 #include "seam/backend.h"
 
 namespace rpf {
@@ -38,8 +40,12 @@ class CpuBackend : public Backend {
   /// [pixel of the window][carried]
   std::vector<float> estimate_window(const Window& window, const EstimateProgress& progress,
                                      std::vector<EstimateStage>* stages);
+  /// Runs body(0) .. body(count - 1) on all threads while check_ is called here. Where that throws the bodies end
+  /// early: they ask must_stop().
+  void run_watched(int count, const std::function<void(int)>& body);
   /// Filters the pixels of a block that lie in the tile.
   void filter_block(int pass, const Window& block, const Window& tile, Workspace& w);
+  PixelTrace trace_here(int pass, std::uint32_t pixel) const;
   /// explained() of a pixel of the tile, from what filtering it left in the workspace.
   void keep_explanation(const Window& tile, std::uint32_t pixel, const Workspace& w);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cpu/must_stop.h"
 #include "rpf_math.h"
 
 namespace rpf {
@@ -63,7 +64,8 @@ void fill_bins(const Plan& plan, const Neighborhood& n, std::uint32_t measured, 
 void fill_histograms(const Plan& plan, std::uint32_t measured, Dependencies& out) {
   const std::size_t variables = plan.variables.count(), bins = 2 * static_cast<std::size_t>(plan.half_bins) + 1;
   out.histograms.assign(pair_count(plan.variables) * bins * bins, 0);
-  for (std::uint32_t j = 0; j < measured; ++j) {
+  constexpr std::uint32_t rows_at_once = 4096;
+  for (std::uint32_t j = 0; j < measured && (j % rows_at_once != 0 || !must_stop()); ++j) {
     const std::uint8_t* row = out.bins.data() + j * variables;
     std::uint32_t* histogram = out.histograms.data();
     for_each_partner_range(plan.variables, [&](std::size_t x, std::size_t y_begin, std::size_t y_end) {

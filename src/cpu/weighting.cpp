@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cpu/must_stop.h"
 #include "rpf_math.h"
 
 namespace rpf {
@@ -126,7 +127,7 @@ void average(std::size_t carried, const Neighborhood& n, std::uint32_t own, cons
   scratch.inverse_total.resize(own);
   WeightedSums sums, stretch;
   float block[RPF_LANES];
-  for (std::uint32_t i = 0; i < own; ++i) {
+  for (std::uint32_t i = 0; i < own && !must_stop(); ++i) {
     sums.clear(carried);
     for (std::uint32_t begin = 0; begin < n.size(); begin += RPF_LANES) {
       if (begin % (RPF_STRETCH * RPF_LANES) == 0) stretch.clear(carried);
@@ -149,7 +150,7 @@ float effective_samples(std::uint32_t own, std::uint32_t neighbors, const Filter
   kernel::rpf_lanes squares;
   kernel::rpf_lanes_clear(&squares);
   float block[RPF_LANES];
-  for (std::uint32_t begin = 0; begin < neighbors; begin += RPF_LANES) {
+  for (std::uint32_t begin = 0; begin < neighbors && !must_stop(); begin += RPF_LANES) {
     float share[RPF_LANES] = {};
     for (std::uint32_t i = 0; i < own; ++i) {
       block_weights(scratch, i, begin, neighbors, block);

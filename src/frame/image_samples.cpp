@@ -26,14 +26,19 @@ std::vector<std::size_t> color_columns(const Image& image) {
 
 }  // namespace
 
+SampleLayout layout_of_image(const Image& image) {
+  SampleLayout layout{{"R", "G", "B", "film.X", "film.Y"}};
+  if (color_columns(image).size() > 3) layout.slots.emplace_back("A");
+  return layout;
+}
+
 SampleBuffer samples_of_image(const Image& image) {
   const std::vector<std::size_t> columns = color_columns(image);
   SampleBuffer samples;
   samples.data_window = image.data_window;
   samples.display_window = image.display_window;
   samples.metadata = image.metadata;
-  samples.layout.slots = {"R", "G", "B", "film.X", "film.Y"};
-  if (columns.size() > 3) samples.layout.slots.emplace_back("A");
+  samples.layout = layout_of_image(image);
   samples.first_sample = {0};
   samples.values.reserve(image.data_window.pixel_count() * samples.layout.size());
   for (std::uint32_t pixel = 0; pixel < image.data_window.pixel_count(); ++pixel) {

@@ -10,7 +10,8 @@
 
 namespace rpf::images {
 
-/// As read_image() of rpf/io.h.
+/// As inspect_image() and read_image() of rpf/io.h.
+Image inspect(const std::string& path);
 Image read(const std::string& path);
 
 /// Fills the temporary file of `path` and reads it back; the format follows from the extension. Throws Error(output).

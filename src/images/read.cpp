@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
@@ -98,17 +99,41 @@ Image describe(const oiio::ImageSpec& spec, const std::string& format) {
   return image;
 }
 
+// Some rows at a time: a header may promise more pixels than there are, and memory is taken for those that come.
+void read_pixels(oiio::ImageInput& input, Image& image) {
+  constexpr std::size_t values_at_once = 4 << 20;
+  const oiio::ImageSpec spec = input.spec();
+  const std::size_t row = static_cast<std::size_t>(spec.width) * image.channel_count();
+  const bool tiled = spec.tile_width > 0;
+  const int rows = tiled ? spec.height : static_cast<int>(std::max<std::size_t>(values_at_once / row, 1));
+  image.pixels.reserve(row * static_cast<std::size_t>(spec.height));
+  bool done = true;
+  for (int y = 0; done && y < spec.height; y += rows) {
+    const int end = std::min(y + rows, spec.height);
+    image.pixels.resize(row * static_cast<std::size_t>(end));
+    float* to = image.pixels.data() + row * static_cast<std::size_t>(y);
+    done = tiled ? input.read_image(0, 0, 0, spec.nchannels, oiio::TypeFloat, to)
+                 : input.read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0, spec.nchannels, oiio::TypeFloat, to);
+  }
+  // A truncated TIFF is "read" with success and an error waiting.
+  if (!done || input.has_error()) throw std::runtime_error(input.geterror());
+}
+
 }  // namespace
+
+Image inspect(const std::string& path) {
+  return guard_input(path, [&] {
+    const auto input = open_image(path);
+    return describe(input->spec(), input->format_name());
+  });
+}
 
 Image read(const std::string& path) {
   return guard_input(path, [&] {
     const auto input = open_image(path);
     const oiio::ImageSpec& spec = input->spec();
     Image image = describe(spec, input->format_name());
-    image.pixels.resize(image.data_window.pixel_count() * image.channel_count());
-    const bool done = input->read_image(0, 0, 0, spec.nchannels, oiio::TypeFloat, image.pixels.data());
-    // A truncated TIFF is "read" with success and an error waiting.
-    if (!done || input->has_error()) throw std::runtime_error(input->geterror());
+    read_pixels(*input, image);
     to_linear(spec, image);
     multiply_by_alpha(spec, image);
     return image;

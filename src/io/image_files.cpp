@@ -5,6 +5,7 @@
 #include "io/exr_image.h"
 #include "io/image_formats.h"
 #include "io/image_library.h"
+#include "io/reading.h"
 #include "rpf/error.h"
 #include "rpf/io.h"
 
@@ -23,7 +24,17 @@ void check_image(const std::string& path, const Image& image) {
 
 }  // namespace
 
-Image read_image(const std::string& path) { return io::image_library().read(path); }
+Image inspect_image(const std::string& path) { return io::image_library().inspect(path); }
+
+std::uint64_t image_bytes(const Image& header) {
+  // As floats, and what some formats unpack as a whole: half of that, for 16 bits a channel.
+  return header.data_window.pixel_count() * header.channel_count() * (sizeof(float) + sizeof(std::uint16_t));
+}
+
+Image read_image(const std::string& path, std::uint64_t max_memory) {
+  if (max_memory > 0) io::check_budget(path, image_bytes(inspect_image(path)), max_memory);
+  return io::image_library().read(path);
+}
 
 void write_image(const std::string& path, const Image& image) {
   check_image(path, image);

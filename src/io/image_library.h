@@ -10,6 +10,7 @@ namespace rpf::io {
 
 /// What that library does; images/images.h describes the functions.
 struct ImageLibrary {
+  Image (*inspect)(const std::string& path);
   Image (*read)(const std::string& path);
   void (*write)(const std::string& path, const AtomicFile& file, const Image& image);
 };

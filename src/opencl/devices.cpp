@@ -1,6 +1,6 @@
 #include "rpf/devices.h"
 
-#include "opencl/self_test.h"
+#include "opencl/probe.h"
 #include "opencl/session.h"
 
 namespace rpf {
@@ -31,6 +31,7 @@ DeviceInfo describe(const cl::Device& device, int index) {
 }  // namespace
 
 std::vector<DeviceInfo> devices() {
+  probe_drivers();
   return on_device("listing the devices", [] {
     std::vector<DeviceInfo> result;
     for (const cl::Device& device : all_devices()) result.push_back(describe(device, static_cast<int>(result.size())));
@@ -38,6 +39,6 @@ std::vector<DeviceInfo> devices() {
   });
 }
 
-std::string check_device(int index) { return self_test(Session::untested(index)); }
+std::string check_device(int index) { return probe_device(index); }
 
 }  // namespace rpf

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <string>
@@ -82,8 +84,8 @@ void prepare() {
   fs::path folder = wanted_folder();
   if (folder.empty() || !is_usable(folder)) {
     static const PrivateFolder own;
-    folder = own.path();
-    if (folder.empty() || !is_usable(folder))
+    folder = own.path() / "pocl";
+    if (own.path().empty() || !is_usable(folder))
       throw Error(ErrorKind::device, fmt::format("no folder for compiled kernels, not even below {}: {} MB that can be "
                                                  "written to are needed; set RPF_CACHE_DIR, or use --backend=cpu",
                                                  fs::temp_directory_path().string(), needed_space >> 20U));
@@ -98,6 +100,25 @@ void prepare() {
 void prepare_kernel_cache() {
   static std::once_flag once;
   std::call_once(once, prepare);
+}
+
+fs::path kernel_cache_folder() { return our_folder(); }
+
+std::vector<std::string> environment_with_our_cache() {
+  constexpr const char* replaced[] = {"RPF_CACHE_DIR=", "POCL_CACHE_DIR="};
+  std::vector<std::string> result;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const auto begins = [&](const char* name) { return std::string(*entry).rfind(name, 0) == 0; };
+    if (our_folder().empty() || std::none_of(std::begin(replaced), std::end(replaced), begins))
+      result.emplace_back(*entry);
+  }
+  if (!our_folder().empty()) result.push_back("RPF_CACHE_DIR=" + our_folder().parent_path().string());
+  return result;
+}
+
+fs::path verdict_folder() {
+  const fs::path kernels = our_folder().empty() ? wanted_folder() : our_folder();
+  return kernels.empty() ? fs::path() : kernels.parent_path() / "drivers";
 }
 
 void check_kernels(const std::string& source) {

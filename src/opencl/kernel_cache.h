@@ -1,7 +1,9 @@
 // Where compiled kernels are kept between runs.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace rpf {
 
@@ -9,6 +11,15 @@ namespace rpf {
 /// where none of these can be written a private one that is removed at the end of the process. Does nothing where
 /// POCL_CACHE_DIR is set or after the first call. Call it before any OpenCL function.
 void prepare_kernel_cache();
+
+/// The folder that prepare_kernel_cache() chose; empty where POCL_CACHE_DIR was set.
+std::filesystem::path kernel_cache_folder();
+
+/// The environment for a child that is to choose the same folder in the same way.
+std::vector<std::string> environment_with_our_cache();
+
+/// Where what is known of drivers is kept, beside the compiled kernels.
+std::filesystem::path verdict_folder();
 
 /// Removes damaged kernels, which would abort the process: those of this source, or all where the cache does not know
 /// the source yet. `source` is all that decides what is compiled. Call it before a program is built.

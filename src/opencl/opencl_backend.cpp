@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "opencl/launch_work.h"
 #include "opencl/trace_reader.h"
 #include "plan/box.h"
+#include "rpf_math.h"
 
 namespace rpf {
 namespace {
@@ -29,15 +31,15 @@ std::size_t work_items(const cl::Device& device, int threads) {
 }
 
 /// The numbers of the plan that are compiled in (frame.cl).
-std::string definitions(const Frame& frame, const Plan& plan) {
+std::string definitions(const Frame& frame, const Plan& plan, bool long_pixels) {
   const std::uint32_t most = plan.most_samples;
   const bool uniform = std::uint64_t{most} * (frame.first_sample.size() - 1) == frame.sample_count();
   return fmt::format(
       "-DRPF_VARIABLES={} -DRPF_RANDOM={} -DRPF_FEATURES={} -DRPF_REJECTING={} -DRPF_BINS={} -DRPF_CARRIED={} "
-      "-DRPF_SAMPLES={} -DRPF_MISSING={}{}",
+      "-DRPF_SAMPLES={} -DRPF_MISSING={}{}{}",
       plan.variables.count(), plan.variables.random_names.size(), plan.variables.feature_names.size(), plan.rejecting,
       2 * plan.half_bins + 1, plan.carried, uniform ? most : 0, frame.has_missing ? 1 : 0,
-      plan.explain ? " -DRPF_EXPLAIN=1" : "");
+      plan.explain ? " -DRPF_EXPLAIN=1" : "", long_pixels ? " -DRPF_LONG=1" : "");
 }
 
 /// One value a feature, filled up to whole vectors with what rejects nothing.
@@ -80,12 +82,25 @@ Rows rows_read(const Plan& plan, int pass, const Window& tile) {
 OpenClBackend::OpenClBackend(const OpenClOptions& options)
     : session_(Session::of(find_device(options.device))),
       band_bytes_(options.band_bytes),
+      weights_at_once_(options.weights_at_once),
       phases_(options.phases > 0 ? fmt::format(" -DRPF_PHASES={}", options.phases) : ""),
       items_(work_items(session_.device(), options.threads)),
       blocking_(options.blocking) {}
 
 std::string OpenClBackend::description() const {
   return "opencl (" + session_.device().getInfo<CL_DEVICE_NAME>() + ")";
+}
+
+OpenClBackend::KernelProgram OpenClBackend::program_for(const Frame& frame, const Plan& plan) const {
+  const bool fixed = plan.method != Method::rpf;
+  return {fixed ? "box.cl" : "filter.cl",
+          definitions(frame, plan, has_long_pixels(plan, weights_at_once_)) + (fixed ? "" : phases_)};
+}
+
+void OpenClBackend::get_ready(const Frame& frame, const Plan& plan, const std::function<void()>& check) {
+  if (plan.passes.empty()) return;
+  const KernelProgram needed = program_for(frame, plan);
+  on_device("compiling", [&] { session_.rehearse(needed.file, needed.definitions, "", check); });
 }
 
 void OpenClBackend::load(const Frame& frame, std::vector<float> colors, const Plan& plan) {
@@ -99,8 +114,8 @@ void OpenClBackend::load(const Frame& frame, std::vector<float> colors, const Pl
   if (plan.passes.empty()) return;
   on_device("preparing the filter", [&] {
     const bool fixed = has_fixed_weights();
-    const cl::Program& program =
-        session_.program(fixed ? "box.cl" : "filter.cl", definitions(frame, plan) + (fixed ? "" : phases_));
+    const KernelProgram needed = program_for(frame, plan);
+    const cl::Program& program = session_.program(needed.file, needed.definitions);
     kernel_ = cl::Kernel(program, fixed ? "filter_box" : "filter_tile");
     layout_kernel_ = cl::Kernel(program, fixed ? "lay_out_columns" : "lay_out_records");
     centers_ = session_.copy(plan.centers);
@@ -188,6 +203,7 @@ kernel::rpf_pass OpenClBackend::arguments(int pass, const Window& tile, const Ba
   a.outlier_step = plan_->outlier_step ? 1 : 0;
   a.reach = reach_of(p);
   a.coordinates = static_cast<std::uint32_t>(p.coordinates.size());
+  a.end_own = a.end_block = std::numeric_limits<std::uint32_t>::max();  // all
   return a;
 }
 
@@ -217,10 +233,12 @@ std::vector<cl::Buffer> OpenClBackend::buffers(int pass, const Band& band, const
           results.trace_histograms};
 }
 
-void OpenClBackend::launch(int pass, const Window& tile, const Band& band, std::size_t items, const Results& results) {
+void OpenClBackend::launch(const kernel::rpf_pass& arguments, const Band& band, std::size_t items,
+                           const Results& results) {
   cl_uint number = 0;
-  for (const cl::Buffer& buffer : buffers(pass, band, results)) kernel_.setArg(number++, buffer);
-  kernel_.setArg(number, arguments(pass, tile, band));
+  for (const cl::Buffer& buffer : buffers(static_cast<int>(arguments.pass), band, results))
+    kernel_.setArg(number++, buffer);
+  kernel_.setArg(number, arguments);
   session_.launch(kernel_, items, 1);
 }
 
@@ -233,7 +251,8 @@ cl::Buffer OpenClBackend::explanation_buffer(const Window& tile) {
 }
 
 void OpenClBackend::run(int pass, const Window& tile) {
-  explained_.clear();
+  tile_ = tile;
+  explained_.assign(plan_->explain ? explained_floats(tile) : 0, 0.0F);
   run_part(pass, tile);
 }
 
@@ -247,14 +266,66 @@ void OpenClBackend::run_part(int pass, const Window& tile) {
   }
   on_device("filtering", [&] {
     const Band& band = band_for(pass, needed);
-    const cl::Buffer explained = explanation_buffer(tile);
-    launch(pass, tile, band, items_, {band.next_colors, band.statistics, explained, {}, {}});
+    launch_pieces(pass, tile, band);
     collect(tile, band);
-    if (!plan_->explain) return;
-    const std::vector<float> part = session_.read<float>(explained, 0, explained_floats(tile));
-    explained_.insert(explained_.end(), part.begin(),
-                      part.end());  // halves of a tile are whole rows, one after another
   });
+}
+
+void OpenClBackend::launch_pieces(int pass, const Window& tile, const Band& band) {
+  // What is explained is added up in one slot, and a block of pixels that share statistics is one item's work.
+  const std::size_t at_once = plan_->explain || plan_->statistics_block > 1 ? 1 : items_;
+  if (tile.pixel_count() > at_once && (work_of(*frame_, *plan_, pass, tile) > weights_at_once_ * items_ ||
+                                       most_work(*frame_, *plan_, pass, tile).weights() > weights_at_once_))
+    for (const Window& half : halves_of(tile, plan_->statistics_block)) launch_pieces(pass, half, band);
+  else
+    launch_piece(pass, tile, band);
+}
+
+void OpenClBackend::launch_piece(int pass, const Window& piece, const Band& band) {
+  const cl::Buffer explained = explanation_buffer(piece);
+  const Results results{band.next_colors, band.statistics, explained, {}, {}};
+  if (most_work(*frame_, *plan_, pass, piece).weights() > weights_at_once_)
+    launch_long_pixels(pass, piece, band, results);
+  else
+    launch(arguments(pass, piece, band), band, items_, results);
+  if (plan_->explain) keep_explained(piece, explained);
+  if (check_) check_();
+}
+
+void OpenClBackend::launch_long_pixels(int pass, const Window& piece, const Band& band, const Results& results) {
+  const PixelWork most = most_work(*frame_, *plan_, pass, piece);
+  const auto own = static_cast<std::uint32_t>(most.own);
+  const std::uint32_t blocks = kernel::rpf_blocks(static_cast<std::uint32_t>(most.neighbors));
+  const auto part = [&](std::uint64_t weights_each, std::uint32_t left) {
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(weights_at_once_ / weights_each, 1, left));
+  };
+  kernel::rpf_pass a = arguments(pass, piece, band);
+  const auto launch_next = [&] {
+    launch(a, band, plan_->explain ? 1 : items_, results);
+    if (check_) check_();
+  };
+  a.outlier_step = 0;
+  a.end_block = 0;
+  for (a.first_own = 0; a.first_own < own; a.first_own = a.end_own) {
+    a.end_own = a.first_own + part(most.neighbors, own - a.first_own);
+    launch_next();
+  }
+  for (a.first_block = 0; plan_->explain && a.first_block < blocks; a.first_block = a.end_block) {
+    a.end_block = a.first_block + part(most.own * RPF_LANES, blocks - a.first_block);
+    launch_next();
+  }
+  if (!plan_->outlier_step) return;
+  a.outlier_step = 1;
+  launch_next();
+}
+
+void OpenClBackend::keep_explained(const Window& piece, const cl::Buffer& explained) {
+  const std::vector<float> values = session_.read<float>(explained, 0, explained_floats(piece));
+  const std::size_t floats = pair_count(plan_->variables) + 1, row = floats * static_cast<std::size_t>(piece.width);
+  for (int y = 0; y < piece.height; ++y) {
+    const std::size_t place = static_cast<std::size_t>(piece.y + y - tile_.y) * tile_.width + piece.x - tile_.x;
+    std::copy_n(values.data() + row * static_cast<std::size_t>(y), row, explained_.data() + place * floats);
+  }
 }
 
 void OpenClBackend::run_halves(int pass, const Window& tile) {
@@ -301,7 +372,7 @@ PixelTrace OpenClBackend::trace(int pass, std::uint32_t pixel) {
     // The kernel finds a pixel's place in the band; these stand in for the band's, so that nothing changes.
     const cl::Buffer next_colors = session_.buffer(band.next_colors.getInfo<CL_MEM_SIZE>());
     const cl::Buffer statistics = session_.buffer(band.statistics.getInfo<CL_MEM_SIZE>());
-    launch(pass, tile, band, 1,
+    launch(arguments(pass, tile, band), band, 1,
            {next_colors, statistics, explanation_buffer(tile), reader.values(), reader.histograms()});
     const std::size_t own = (frame_->first_sample[pixel] - band.first_sample) * plan_->carried;
     const auto found = session_.read<PixelStatistics>(statistics, pixel - band.first_pixel, 1).front();

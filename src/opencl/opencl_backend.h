@@ -18,6 +18,7 @@ struct OpenClOptions {
   int threads = 1;                        ///< compute units to keep busy, on a device that is a CPU
   std::uint64_t band_bytes = 0;           ///< most bytes of a band; 0: what the device has
   std::optional<Blocking> blocking = {};  ///< of the learned estimator's layers; by default what is best for the device
+  std::uint64_t weights_at_once = std::uint64_t{1} << 28;  ///< own samples times neighbors in one launch, about
   int phases = 0;  ///< only the first phases of a pixel: draw, gather, prepare, information, weights; 0: all
 };
 
@@ -27,6 +28,7 @@ class OpenClBackend : public Backend {
   explicit OpenClBackend(const OpenClOptions& options);
 
   std::string description() const override;
+  void get_ready(const Frame& frame, const Plan& plan, const std::function<void()>& check) override;
   void load(const Frame& frame, std::vector<float> colors, const Plan& plan) override;
   void run(int pass, const Window& tile) override;
   void end_pass() override;
@@ -48,6 +50,13 @@ class OpenClBackend : public Backend {
     cl::Buffer variables, scales;
   };
 
+  /// A program of kernels/, and what is compiled into it.
+  struct KernelProgram {
+    std::string file, definitions;
+  };
+
+  KernelProgram program_for(const Frame& frame, const Plan& plan) const;
+
   /// What a launch writes. Without a trace its buffers are null.
   struct Results {
     cl::Buffer next_colors, statistics, explained, trace_values, trace_histograms;
@@ -65,7 +74,14 @@ class OpenClBackend : public Backend {
   std::size_t explained_floats(const Window& tile) const;
   /// What the pixels of a tile are explained in, zeros; null where the plan does not ask for it.
   cl::Buffer explanation_buffer(const Window& tile);
-  void launch(int pass, const Window& tile, const Band& band, std::size_t items, const Results& results);
+  void launch(const kernel::rpf_pass& arguments, const Band& band, std::size_t items, const Results& results);
+  /// The same in launches that are not too long, for a tile that the band holds.
+  void launch_pieces(int pass, const Window& tile, const Band& band);
+  void launch_piece(int pass, const Window& piece, const Band& band);
+  /// Some pixels of which one has too many weights for one launch: an item each.
+  void launch_long_pixels(int pass, const Window& piece, const Band& band, const Results& results);
+  /// What launch_piece() explained goes to its place in the tile.
+  void keep_explained(const Window& piece, const cl::Buffer& explained);
   /// run() of a tile or, where it reads more rows than the device can hold, of its halves.
   void run_part(int pass, const Window& tile);
   void run_halves(int pass, const Window& tile);
@@ -73,7 +89,7 @@ class OpenClBackend : public Backend {
   void collect(const Window& tile, const Band& band);
 
   Session& session_;
-  std::uint64_t band_bytes_;
+  std::uint64_t band_bytes_, weights_at_once_;
   std::string phases_;  ///< definition for kernels/filter.cl
   std::size_t items_;   ///< work-items that run at once
   const Frame* frame_ = nullptr;
@@ -83,6 +99,7 @@ class OpenClBackend : public Backend {
   std::unique_ptr<NetworkProgram> network_;
   std::vector<float> colors_, next_colors_;  ///< c' and c'': [sample][carried]
   std::vector<PixelStatistics> statistics_;  ///< [pixel]
+  Window tile_;                              ///< of the latest run()
   std::vector<float> explained_;             ///< [pixel of the tile][pairs + 1]
 
   cl::Kernel kernel_, layout_kernel_;

@@ -19,7 +19,7 @@ ScratchSizes::ScratchSizes(const Plan& plan) : most_samples(plan.most_samples) {
     records = columns * capacity / RPF_LANES;
   }
   columns *= RPF_STRETCH;
-  sums = std::size_t{most_samples} * (1 + plan.carried);
+  sums = std::size_t{most_samples} * (1 + plan.carried) + 1;
 }
 
 std::uint64_t ScratchSizes::bytes() const {

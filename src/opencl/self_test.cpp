@@ -49,7 +49,7 @@ std::vector<float> expected(float a, float b, float c, kernel::uint i) {
 std::string self_test(Session& session) {
   return on_device("the self-test", [&]() -> std::string {
     const std::vector<float> a = inputs(1), b = inputs(2), c = inputs(3);
-    cl::Kernel kernel(session.program("self_test.cl", ""), "self_test");
+    cl::Kernel kernel(session.compile("self_test.cl", ""), "self_test");
     const cl::Buffer buffers[] = {session.copy(a), session.copy(b), session.copy(c),
                                   session.buffer(cases * results * sizeof(float))};
     for (cl_uint i = 0; i < std::size(buffers); ++i) kernel.setArg(i, buffers[i]);

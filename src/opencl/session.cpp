@@ -9,7 +9,7 @@
 #include "opencl/address_space.h"
 #include "opencl/kernel_cache.h"
 #include "opencl/kernel_source.h"
-#include "opencl/self_test.h"
+#include "opencl/probe.h"
 
 namespace rpf {
 namespace {
@@ -37,11 +37,16 @@ int index_of(const std::string& text, std::size_t count) {
   return static_cast<std::size_t>(index) < count ? index : -1;
 }
 
+std::string key_of(const std::string& file, const std::string& definitions, const std::string& more) {
+  return file + " " + definitions + "\n" + more;
+}
+
+bool is_pocl(const cl::Device& device) { return device.getInfo<CL_DEVICE_VERSION>().find("PoCL") != std::string::npos; }
+
 /// Whether this is PoCL on a processor whose AVX-512 counts bits in vectors; frame.cl says what for.
 bool has_new_avx512(const cl::Device& device) {
 #ifdef __x86_64__
-  const std::string version = device.getInfo<CL_DEVICE_VERSION>();
-  return version.find("PoCL") != std::string::npos && (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0 &&
+  return is_pocl(device) && (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0 &&
          __builtin_cpu_supports("avx512vpopcntdq") && __builtin_cpu_supports("avx512bw") &&
          __builtin_cpu_supports("avx512vl");
 #else
@@ -50,10 +55,11 @@ bool has_new_avx512(const cl::Device& device) {
 #endif
 }
 
-/// No option that trades accuracy; division and square root correctly rounded where that must be asked for.
+/// No option that trades accuracy; division and square root correctly rounded where that must be asked for; arguments'
+/// kinds for rehearse(). No warnings: PoCL counts them on standard error, and the tests compile with all of them.
 std::string build_options(const cl::Device& device, const std::string& definitions) {
   const bool asks = (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
-  return "-cl-std=CL1.2 " + std::string(asks ? "-cl-fp32-correctly-rounded-divide-sqrt " : "") +
+  return "-cl-std=CL1.2 -cl-kernel-arg-info -w " + std::string(asks ? "-cl-fp32-correctly-rounded-divide-sqrt " : "") +
          (has_new_avx512(device) ? "-DRPF_AVX512 " : "") + definitions;
 }
 
@@ -83,6 +89,11 @@ std::vector<cl::Device> all_devices() {
 }
 
 int find_device(const std::string& wanted) {
+  require_working_device(wanted);
+  return listed_device(wanted);
+}
+
+int listed_device(const std::string& wanted) {
   const std::vector<cl::Device> devices = on_device("listing the devices", all_devices);
   if (devices.empty())
     throw Error(
@@ -104,45 +115,47 @@ int find_device(const std::string& wanted) {
   return found;
 }
 
-Session& Session::untested(int device) {
+Session& Session::of(int device) {
   static std::mutex mutex;
   static auto& sessions = *new std::map<int, Session>();  // never destroyed: see the header
   const std::lock_guard<std::mutex> lock(mutex);
   const auto found = sessions.find(device);
   if (found != sessions.end()) return found->second;
   return on_device("opening the device", [&]() -> Session& {
-    return sessions.emplace(device, Session(all_devices().at(static_cast<std::size_t>(device)))).first->second;
+    return sessions.emplace(device, Session(all_devices().at(static_cast<std::size_t>(device)), device)).first->second;
   });
 }
 
-Session& Session::of(int device) {
-  static std::map<int, std::string> tested;
-  Session& session = untested(device);
-  const auto found = tested.find(device);
-  const std::string failure =
-      found != tested.end() ? found->second : tested.emplace(device, self_test(session)).first->second;
-  if (!failure.empty())
-    throw Error(
-        ErrorKind::device,
-        fmt::format("device '{}' does not keep the numeric contract: {}; use --backend=cpu or another device of "
-                    "`rpf devices`",
-                    session.device().getInfo<CL_DEVICE_NAME>(), failure));
-  return session;
+Session::Session(cl::Device device, int number)
+    : device_(std::move(device)), number_(number), context_(device_), queue_(context_, device_) {}
+
+std::string Session::source_of(const std::string& file, const std::string& definitions, const std::string& more) const {
+  return fmt::format("{}\n{}\n{}\n{}{}", device_.getInfo<CL_DEVICE_NAME>(), device_.getInfo<CL_DRIVER_VERSION>(),
+                     build_options(device_, definitions), kernel_source(file), more);
 }
 
-Session::Session(cl::Device device) : device_(std::move(device)), context_(device_), queue_(context_, device_) {}
+void Session::rehearse(const std::string& file, const std::string& definitions, const std::string& more,
+                       const Check& check) {
+  if (programs_.count(key_of(file, definitions, more)) != 0) return;
+  const std::string source = source_of(file, definitions, more);
+  check_kernels(source);
+  require_compiled({number_, file, definitions, more, source, is_pocl(device_)}, check);
+}
 
 const cl::Program& Session::program(const std::string& file, const std::string& definitions, const std::string& more) {
-  const std::string key = file + " " + definitions + "\n" + more;
+  rehearse(file, definitions, more, {});
+  return compile(file, definitions, more);
+}
+
+const cl::Program& Session::compile(const std::string& file, const std::string& definitions, const std::string& more) {
+  const std::string key = key_of(file, definitions, more);
   if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
   check_address_space_to_compile();
-  const std::string text = kernel_source(file) + more, options = build_options(device_, definitions);
-  const std::string source = fmt::format("{}\n{}\n{}\n{}", device_.getInfo<CL_DEVICE_NAME>(),
-                                         device_.getInfo<CL_DRIVER_VERSION>(), options, text);
+  const std::string source = source_of(file, definitions, more);
   check_kernels(source);
-  cl::Program program(context_, text);
+  cl::Program program(context_, kernel_source(file) + more);
   try {
-    program.build(device_, options.c_str());
+    program.build(device_, build_options(device_, definitions).c_str());
   } catch (const cl::Error& e) {
     throw Error(ErrorKind::device,
                 fmt::format("compiling {} for '{}' failed ({}), please report it; --backend=cpu works without. "

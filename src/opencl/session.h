@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "opencl/canaries.h"
+#include "opencl/child.h"
 #include "opencl/opencl.h"
 #include "rpf/error.h"
 
@@ -30,22 +31,26 @@ std::vector<cl::Device> all_devices();
 /// The device that an index or a part of a name stands for; the first one for an empty text. Throws Error(device) where
 /// there is none and says what to install, Error(usage) where several fit.
 int find_device(const std::string& wanted);
+/// The same of the devices that drivers list in this process, which none may have tried before: for rpf_probe.
+int listed_device(const std::string& wanted);
 
 class Session {
  public:
-  /// The session of a device, made at first use; it lives as long as the process (PoCL's clean-up is not to be relied
-  /// on). The first use of a device tests the numeric contract: throws Error(device) where it is not kept.
+  /// The session of a device that find_device() found, made at first use; it lives as long as the process (PoCL's
+  /// clean-up is not to be relied on).
   static Session& of(int device);
-  /// The same without the test.
-  static Session& untested(int device);
 
-  explicit Session(cl::Device device);
+  Session(cl::Device device, int number);
   const cl::Device& device() const { return device_; }
   const cl::Context& context() const { return context_; }
 
   /// A program from kernels/`file`, with more text behind it, compiled with these definitions ("-D..."), or what an
   /// earlier call compiled. Throws Error(device) with the build log.
   const cl::Program& program(const std::string& file, const std::string& definitions, const std::string& more = "");
+  /// What program() does first: a child compiles what no child has compiled yet (probe.h).
+  void rehearse(const std::string& file, const std::string& definitions, const std::string& more, const Check& check);
+  /// program() without that.
+  const cl::Program& compile(const std::string& file, const std::string& definitions, const std::string& more = "");
 
   /// Runs a kernel over so many work-items in groups, and waits for it. PoCL compiles at the first launch.
   void launch(const cl::Kernel& kernel, std::size_t items, std::size_t group);
@@ -75,8 +80,11 @@ class Session {
 
  private:
   cl::Buffer copy_of(const void* data, std::size_t bytes);
+  /// All that decides what is compiled.
+  std::string source_of(const std::string& file, const std::string& definitions, const std::string& more) const;
 
   cl::Device device_;
+  int number_;
   cl::Context context_;
   cl::CommandQueue queue_;
   Canaries canaries_;

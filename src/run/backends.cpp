@@ -16,12 +16,17 @@ std::unique_ptr<Backend> make_opencl(const Settings& settings) {
   return std::make_unique<OpenClBackend>(OpenClOptions{settings.device, thread_count(settings), 0});
 }
 
+/// The reference in place of OpenCL, whose error is `e`; other errors than a device's are passed on.
+std::unique_ptr<Backend> make_replacement(const Settings& settings, const Error& e) {
+  if (e.kind() != ErrorKind::device) throw;
+  return std::make_unique<CpuBackend>(thread_count(settings), fmt::format("no OpenCL: {}", e.what()));
+}
+
 std::unique_ptr<Backend> make_best(const Settings& settings) {
   try {
     return make_opencl(settings);
   } catch (const Error& e) {
-    if (e.kind() != ErrorKind::device) throw;
-    return std::make_unique<CpuBackend>(thread_count(settings), fmt::format("no OpenCL: {}", e.what()));
+    return make_replacement(settings, e);
   }
 }
 
@@ -35,6 +40,18 @@ std::unique_ptr<Backend> make_backend(const Settings& settings) {
   if (settings.backend == "auto") return make_best(settings);
   throw Error(ErrorKind::usage, fmt::format("backend '{}' is not known; this build has: {}", settings.backend,
                                             fmt::join(backend_names(), ", ")));
+}
+
+void load_backend(std::unique_ptr<Backend>& backend, const Settings& settings, const Frame& frame,
+                  std::vector<float> colors, const Plan& plan, const std::function<void()>& check) {
+  try {
+    backend->get_ready(frame, plan, check);
+  } catch (const Error& e) {
+    if (settings.backend != "auto") throw;
+    backend = make_replacement(settings, e);
+  }
+  backend->watch(check);
+  backend->load(frame, std::move(colors), plan);
 }
 
 }  // namespace rpf

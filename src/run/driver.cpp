@@ -93,7 +93,7 @@ class Run {
   Result run_passes(const PassObserver& before_pass) {
     ProgressMeter meter(plan_, control_);
     Result result;
-    backend_->load(prepared_.frame, std::move(prepared_.colors), plan_);
+    load_backend(backend_, settings_, prepared_.frame, std::move(prepared_.colors), plan_, [&] { meter.check(); });
     Pixels pixels = resolved();
     const double plain_energy = energy(pixels, prepared_.facts);
     const float floor = polish_floor(prepared_.frame, pixels, plan_.carried);

@@ -23,6 +23,8 @@ constexpr int measured_box = 11;
 constexpr double measured_factor = 4;
 /// Fewer different samples than this fill too few of the histogram's cells.
 constexpr std::size_t least_samples = 40;
+/// A trace has all weights of a pixel: of more own samples it would take gigabytes and minutes.
+constexpr std::uint32_t most_own_samples = 4096;
 constexpr int bins = 7, half_bins = 3;
 
 // When excess is more than chance. Measured: independent numbers and channels of real frames, docs/deviations.md.
@@ -172,6 +174,7 @@ std::vector<ChannelEvidence> measure_information(PreparedFrame& prepared, const 
   backend->load(prepared.frame, std::move(prepared.colors), plan);
   const std::vector<double> terms = entropy_terms(plan.passes[0].max_neighbors);
   for (const std::uint32_t pixel : grid(plan.width, plan.height)) {
+    if (prepared.frame.samples(pixel) > most_own_samples) continue;
     std::vector<Column> columns = columns_of(backend->trace(0, pixel), plan.variables.count());
     if (columns[0].size() >= least_samples)
       add_readings(plan.variables, Readings(std::move(columns), pixel, terms), channels);

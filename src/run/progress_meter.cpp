@@ -57,6 +57,7 @@ void ProgressMeter::add_part(double part) {
 }
 
 void ProgressMeter::tell(int pass) {
+  pass_ = pass;
   if (!control_.progress) return;
   Progress progress;
   progress.pass = pass;

@@ -23,13 +23,15 @@ class ProgressMeter {
   void add_polished(std::size_t pixels);
   /// Counts a part of a learned estimate, which is 1 as a whole.
   void add_part(double part);
+  /// Only tells the caller again, in the middle of something long.
+  void check() { tell(pass_); }
   double seconds() const;
 
  private:
   void tell(int pass);
 
   const Control& control_;
-  int passes_ = 0;
+  int pass_ = 0, passes_ = 0;
   std::vector<double> pixel_cost_;  ///< [pass] relative
   double total_ = 0, done_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "frame/frame.h"
@@ -22,9 +24,15 @@ class Backend {
 
   /// Its name, with the device it runs on, for example "opencl (pthread-skylake-avx512)".
   virtual std::string description() const = 0;
+  /// Gets ready what the plan needs, such as compiled kernels, without taking anything; load() does it where nobody
+  /// did. Throws Error(device) where that fails, and what `check` throws, which is called now and then.
+  virtual void get_ready(const Frame& /*frame*/, const Plan& /*plan*/, const std::function<void()>& /*check*/) {}
   /// Called once, before anything else. Frame and plan outlive the backend; `colors` is c' of the first pass,
   /// [sample][carried].
   virtual void load(const Frame& frame, std::vector<float> colors, const Plan& plan) = 0;
+  /// Calls `check` while run() and trace() work, on the thread that called them, several times a second however long a
+  /// pixel takes; what it throws ends them.
+  void watch(std::function<void()> check) { check_ = std::move(check); }
   /// Filters the pixels of a tile (frame coordinates, inside the pass's region). Tiles of a pass do not overlap.
   virtual void run(int pass, const Window& tile) = 0;
   /// Ends a pass: its result becomes the input c' of the next.
@@ -54,6 +62,9 @@ class Backend {
   virtual std::vector<EstimateStage> trace_estimate(const Window& region) = 0;
   /// Peak bytes of the backend's own memory in estimate(), of a window (window_around()) with so many samples.
   virtual std::uint64_t estimate_bytes(const EstimatePlan& plan, const Window& window, std::uint64_t samples) const = 0;
+
+ protected:
+  std::function<void()> check_;  ///< empty: nobody watches
 };
 
 }  // namespace rpf

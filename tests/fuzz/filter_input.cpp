@@ -115,6 +115,23 @@ rpf::Settings settings_of(Bytes& bytes, const Kind& kind) {
   return s;
 }
 
+/// One of the methods with fixed weights, which are compiled from box.cl.
+void choose_method(Bytes& bytes, rpf::Settings& s) {
+  s.method = bytes.one_of(
+      std::array<rpf::Method, 3>{rpf::Method::gaussian, rpf::Method::bilateral, rpf::Method::cross_bilateral});
+  if (bytes.flag(2)) s.sigma_color = bytes.value();
+  if (bytes.flag(2)) s.sigma_feature = bytes.value();
+}
+
+/// Mostly what explain() takes.
+void choose_explanation(Bytes& bytes, FilterInput& input) {
+  input.explains = true;
+  if (!bytes.flag(8)) input.settings.box_widths = {3 + 2 * (bytes.byte() % 4)};
+  if (!bytes.flag(8)) input.settings.crop.reset();
+  const rpf::Window& frame = input.samples.data_window;
+  if (bytes.flag(2)) input.pixel = {frame.x + bytes.byte() % 9, frame.y + bytes.byte() % 7};
+}
+
 rpf::Window window_of(Bytes& bytes) {
   static const std::array<rpf::Window, 4> places = {
       rpf::Window{0, 0, 0, 0}, {-7, -3, 0, 0}, {100000, 5, 0, 0}, {0, -1, 0, 0}};
@@ -168,6 +185,8 @@ FilterInput filter_input(const std::uint8_t* data, std::size_t size) {
   const bool crops = bytes.flag(4), breaks = bytes.flag(16);
   input.samples = samples_of(bytes, kind);
   if (crops) input.settings.crop = crop_of(bytes, input.samples.data_window);
+  if (bytes.flag(3)) choose_method(bytes, input.settings);
+  if (bytes.flag(3)) choose_explanation(bytes, input);
   if (breaks) input.samples.first_sample[bytes.byte() % input.samples.first_sample.size()] = bytes.byte();
   return input;
 }

@@ -1,10 +1,11 @@
-// A small frame through the whole filter, once with each backend: pixels, report and errors must be the same, bit for
-// bit.
+// A small frame through the whole filter or explained, once with each backend: pixels, report and errors must be the
+// same, bit for bit.
 #include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 
 #include "filter_input.h"
 #include "must_hold.h"
@@ -28,10 +29,11 @@ class CrashHandlers {
   std::array<struct sigaction, signals.size()> actions_{};
 };
 
-/// What a run leaves: an error's text and kind, or a result.
+/// What a run leaves: an error's text and kind, or a result. Of an explanation the layers are the image.
 struct Outcome {
   std::string error;
   rpf::Result result;
+  std::optional<rpf::ExplainedPixel> pixel;
 };
 
 Outcome run(const FilterInput& input, const char* backend) {
@@ -39,7 +41,14 @@ Outcome run(const FilterInput& input, const char* backend) {
   rpf::Settings settings = input.settings;
   settings.backend = backend;
   try {
-    outcome.result = rpf::filter(input.samples, settings);
+    if (input.explains) {
+      rpf::Explanation explanation = rpf::explain(input.samples, settings, {}, input.pixel);
+      outcome.result.image = std::move(explanation.layers);
+      outcome.result.report = std::move(explanation.report);
+      outcome.pixel = std::move(explanation.pixel);
+    } else {
+      outcome.result = rpf::filter(input.samples, settings);
+    }
   } catch (const rpf::Error& error) {
     outcome.error = std::to_string(static_cast<int>(error.kind())) + " " + error.what();
     must_hold(error.kind() == rpf::ErrorKind::usage || error.kind() == rpf::ErrorKind::input,
@@ -81,6 +90,15 @@ void expect_same(const rpf::Report& a, const rpf::Report& b) {
     expect_same(numbers_of(a.passes[i]), numbers_of(b.passes[i]), "report of pass " + std::to_string(i));
 }
 
+std::vector<float> numbers_of(const rpf::ExplainedPixel& pixel) {
+  std::vector<float> numbers{pixel.fraction_random, pixel.effective_samples};
+  for (const rpf::ExplainedNeighbor& n : pixel.neighbors) numbers.insert(numbers.end(), {n.share, n.color[0]});
+  for (const rpf::ExplainedPair& p : pixel.pairs) numbers.push_back(p.information);
+  for (const rpf::ExplainedColor& c : pixel.colors) numbers.insert(numbers.end(), {c.alpha, c.fraction_random});
+  for (const rpf::ExplainedFeature& f : pixel.features) numbers.insert(numbers.end(), {f.beta, f.fraction_feature});
+  return numbers;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -91,6 +109,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   must_hold(reference.error == device.error, "errors: cpu '" + reference.error + "', opencl '" + device.error + "'");
   expect_same(reference.result.image, device.result.image, "image");
   expect_same(reference.result.report, device.result.report);
+  must_hold(reference.pixel.has_value() == device.pixel.has_value(), "one explains a pixel");
+  if (reference.pixel) expect_same(numbers_of(*reference.pixel), numbers_of(*device.pixel), "explained pixel");
+  if (input.explains) return 0;
   for (const float value : reference.result.image.pixels) must_hold(std::isfinite(value), "finite pixels");
   return 0;
 }

@@ -177,6 +177,23 @@ class MachineTest(unittest.TestCase):
         print(f"slowest end after a signal: {slowest:.2f} s", file=sys.stderr)
         self.assertLess(slowest, 2)
 
+    def test_signals_within_a_long_pixel(self):
+        """One pixel that takes minutes; the others have no samples."""
+        picture, samples = self.folder / "density.pgm", self.folder / "long.exr"
+        picture.write_bytes(b"P5 8 6 255 " + b"\xff" + bytes(47))
+        self.expect(run("scene", "dof", "--size", "8x6", "--spp", "200000", "--density", picture, "-o", samples, "-q"), 0)
+        for backend in ("cpu", "opencl"):
+            for number in (signal.SIGTERM, signal.SIGINT):
+                process = subprocess.Popen(command(samples, "-o", self.output, "--backend", backend, "--preset", "fast"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                time.sleep(4)
+                self.assertIsNone(process.poll())
+                start = time.monotonic()
+                process.send_signal(number)
+                text, _ = process.communicate(timeout=300)
+                self.assertLess(time.monotonic() - start, 2)
+                self.assertEqual(process.returncode, 128 + number, text)
+                self.expect_no_temporaries()
+
     def test_nohup(self):
         process = subprocess.Popen(command(EXAMPLE, "-o", self.output, "--boxes", "35,17"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                    preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))

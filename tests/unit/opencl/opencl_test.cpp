@@ -99,7 +99,7 @@ TEST(KernelSource, PutsIncludesInPlaceAndSaysWhereLinesComeFrom) {
 
 TEST(Session, ReportsTheBuildLogWhenAKernelDoesNotCompile) {
   try {
-    Session::untested(0).program("filter.cl", "-DRPF_VARIABLES=nonsense");
+    Session::of(0).program("filter.cl", "-DRPF_VARIABLES=nonsense");
     FAIL() << "compiled";
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::device);

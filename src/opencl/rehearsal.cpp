@@ -1,0 +1,73 @@
+#include "opencl/rehearsal.h"
+
+#include <array>
+#include <iostream>
+#include <iterator>
+
+#include "opencl/probe.h"
+#include "opencl/self_test.h"
+
+namespace rpf {
+namespace {
+
+constexpr std::size_t buffer_bytes = 64 << 10, largest_argument = 1024;
+
+/// Zeros, of the one size that the driver accepts, or more of them than enough: PoCL does not know the size of
+/// structures.
+void set_to_zeros(cl::Kernel& kernel, cl_uint number) {
+  const std::array<char, largest_argument> zeros{};
+  for (std::size_t bytes = zeros.size(); bytes > 0; --bytes)
+    if (clSetKernelArg(kernel(), number, bytes, zeros.data()) == CL_SUCCESS) return;
+  throw Error(ErrorKind::internal, "a kernel has an argument of more than 1024 bytes; hand it over in a buffer");
+}
+
+void set_arguments(cl::Kernel& kernel, const cl::Buffer& buffer) {
+  const auto count = kernel.getInfo<CL_KERNEL_NUM_ARGS>();
+  for (cl_uint number = 0; number < count; ++number) {
+    if (kernel.getArgInfo<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(number) == CL_KERNEL_ARG_ADDRESS_PRIVATE)
+      set_to_zeros(kernel, number);
+    else
+      kernel.setArg(number, buffer);
+  }
+}
+
+std::string answer(const std::vector<std::string>& question) {
+  if (question.at(0) == "list") return "ok\n" + std::to_string(all_devices().size());
+  if (question.at(0) == "test") {
+    Session& session = Session::of(listed_device(question.at(1)));
+    const std::string failure = self_test(session);
+    return failure.empty() ? "ok\n" : "differs\n" + session.device().getInfo<CL_DEVICE_NAME>() + "\n" + failure;
+  }
+  if (question.at(0) == "build") {
+    rehearse(Session::of(std::stoi(question.at(1))), question.at(2), question.at(3),
+             {std::istreambuf_iterator<char>(std::cin), {}});
+    return "ok\n";
+  }
+  throw Error(ErrorKind::usage, "rpf_probe: list, test DEVICE or build DEVICE FILE DEFINITIONS is expected");
+}
+
+}  // namespace
+
+void rehearse(Session& session, const std::string& file, const std::string& definitions, const std::string& more) {
+  on_device("a first run of " + file, [&] {
+    cl::Program program = session.compile(file, definitions, more);
+    if (!more.empty()) return;
+    std::vector<cl::Kernel> kernels;
+    program.createKernels(&kernels);
+    const cl::Buffer zeros = session.copy(std::vector<char>(buffer_bytes, 0));
+    for (cl::Kernel& kernel : kernels) {
+      set_arguments(kernel, zeros);
+      session.launch(kernel, 1, 1);
+    }
+  });
+}
+
+std::string answer_probe(const std::vector<std::string>& question) {
+  try {
+    return on_device("asking the driver", [&] { return answer(question); });
+  } catch (const Error& e) {
+    return std::to_string(static_cast<int>(e.kind())) + "\n" + e.what();
+  }
+}
+
+}  // namespace rpf

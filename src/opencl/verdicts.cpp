@@ -1,0 +1,72 @@
+#include "opencl/verdicts.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "opencl/cache_seal.h"
+
+namespace rpf {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto good_for = std::chrono::hours(7 * 24), bad_for = std::chrono::hours(1);
+const std::string works = "works\n", fails = "fails\n";
+
+/// Negative for a file of the future: a clock was set back.
+fs::file_time_type::duration age_of(const fs::path& file) {
+  std::error_code failed;
+  const auto written = fs::last_write_time(file, failed);
+  return failed ? good_for : fs::file_time_type::clock::now() - written;
+}
+
+}  // namespace
+
+fs::path Verdicts::file_of(const std::string& question) const {
+  return folder_ / fmt::format("{:016x}", checksum(question));
+}
+
+std::optional<Verdict> Verdicts::find(const std::string& question) const {
+  if (folder_.empty()) return std::nullopt;
+  const fs::path path = file_of(question);
+  std::ifstream file(path);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const bool good = text == works;
+  if (!good && text.compare(0, fails.size(), fails) != 0) return std::nullopt;  // no file, or a damaged one
+  const auto age = age_of(path);
+  if (age < age.zero() || age > (good ? good_for : bad_for)) return std::nullopt;
+  return Verdict{good, good ? "" : text.substr(fails.size())};
+}
+
+void Verdicts::keep(const std::string& question, const Verdict& verdict) const {
+  if (folder_.empty()) return;
+  std::error_code failed;
+  fs::create_directories(folder_, failed);
+  remove_old();
+  const fs::path path = file_of(question), temporary = path.string() + fmt::format("-{}", ::getpid());
+  std::ofstream file(temporary);
+  file << (verdict.works ? works : fails + verdict.reason);
+  file.close();
+  if (file.good()) return fs::rename(temporary, path, failed);
+  fs::remove(temporary, failed);
+}
+
+void Verdicts::forget(const std::string& question) const {
+  std::error_code failed;
+  if (!folder_.empty()) fs::remove(file_of(question), failed);
+}
+
+void Verdicts::remove_old() const {
+  std::error_code failed;
+  for (fs::directory_iterator entry(folder_, failed), end; !failed && entry != end; entry.increment(failed)) {
+    std::error_code gone;  // another process cleans too
+    if (age_of(entry->path()) > good_for) fs::remove(entry->path(), gone);
+  }
+}
+
+}  // namespace rpf

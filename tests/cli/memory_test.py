@@ -1,0 +1,130 @@
+"""Every command that reads: what it needs is compared with the limit before it is taken. Usage: memory_test.py RPF PROJECT"""
+import os
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+from pathlib import Path
+
+RPF, PROJECT = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+EXAMPLE = PROJECT / "examples" / "dof-spheres.samples.exr"
+SANITIZED = b"__asan_init" in RPF.read_bytes()
+PROGRAM_MB = 260  # what the program itself takes, with all libraries that read images and with OpenCL
+HEADERS_MB = 8  # enough for headers
+
+
+def black_png(width, height):
+    """Some bytes that unpack to a lot."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    packer = zlib.compressobj(9)
+    rows = b"".join(packer.compress(bytes(3 * width + 1)) for _ in range(height)) + packer.flush()
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) + chunk(b"IDAT", rows) + chunk(b"IEND", b"")
+
+
+def exr_header(width, height):
+    """A flat EXR file that ends behind its header and an empty table of its rows."""
+    def attribute(name, kind, value):
+        return name + b"\0" + kind + b"\0" + struct.pack("<I", len(value)) + value
+    channels = b"".join(name + b"\0" + struct.pack("<iiii", 2, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    window = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    return (struct.pack("<II", 20000630, 2) + attribute(b"channels", b"chlist", channels) + attribute(b"compression", b"compression", b"\x03") +
+            attribute(b"dataWindow", b"box2i", window) + attribute(b"displayWindow", b"box2i", window) + attribute(b"lineOrder", b"lineOrder", b"\0") +
+            attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1)) + attribute(b"screenWindowCenter", b"v2f", bytes(8)) +
+            attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1)) + b"\0" + bytes(8 * ((height + 15) // 16)))
+
+
+class Memory(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="rpf memory "))
+        self.samples, self.picture, self.header = (self.folder / name for name in ("samples.exr", "picture.png", "header.exr"))
+        self.picture.write_bytes(black_png(400, 300))
+        self.header.write_bytes(exr_header(40000, 20000))
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def run_rpf(self, *arguments, **environment):
+        """Exit code, text, peak in MB."""
+        with tempfile.TemporaryFile("w+") as text:
+            process = subprocess.Popen([RPF, *map(str, arguments)], stdout=text, stderr=subprocess.STDOUT, env={**os.environ, **environment})
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            text.seek(0)
+            return process.returncode, text.read(), usage.ru_maxrss / 1024
+
+    def expect_refusal(self, arguments, **environment):
+        code, text, peak = self.run_rpf(*arguments, **environment)
+        self.assertEqual(code, 6, text)
+        self.assertRegex(text, r"needs? [\d.]+ MB|take [\d.]+ MB")
+        if not SANITIZED:
+            self.assertLess(peak, PROGRAM_MB)
+        return float(re.search(r"(?:needs?|take) ([\d.]+) MB", text)[1])
+
+    def commands(self):
+        output = self.folder / "out.exr"
+        self.assertEqual(self.run_rpf("scene", "dof", "--size", "300x200", "--spp", "4", "-q", "-o", self.samples)[0], 0)
+        other = self.folder / "other.exr"
+        self.assertEqual(self.run_rpf("scene", "dof", "--size", "300x200", "--spp", "4", "--seed", "2", "-q", "-o", other)[0], 0)
+        return {"filter": [self.samples, "-o", output, "--boxes", "3", "-q"],
+                "bilateral": ["--method", "bilateral", self.picture, "-o", output, "--boxes", "3", "-q"],
+                "compare": ["compare", self.picture, self.picture],
+                "side by side": ["compare", self.picture, self.picture, self.picture, "--side-by-side", self.folder / "out.png"],
+                "convert": ["convert", self.samples, "-o", output],
+                "merge": ["merge", self.samples, other, "-o", output],
+                "info": ["info", self.samples],
+                "explain": ["explain", self.samples, "-o", self.folder / "explained", "--box", "3", "-q"]}
+
+    def test_every_command_knows_what_it_needs(self):
+        """Refused with what it needs, by option and by environment, before that is taken; and it takes no more."""
+        for name, arguments in self.commands().items():
+            with self.subTest(name):
+                need = self.expect_refusal([*arguments, "--max-memory", HEADERS_MB])
+                self.assertEqual(self.expect_refusal(arguments, RPF_MAX_MEMORY_MB=str(HEADERS_MB)), need)
+                code, text, peak = self.run_rpf(*arguments)
+                self.assertEqual(code, 0, text)
+                print(f"{name}: predicted {need:.0f} MB, peak {peak:.0f} MB", file=sys.stderr)
+                if not SANITIZED:
+                    self.assertLess(peak, need + PROGRAM_MB)
+
+    def test_a_small_file_that_is_a_large_picture(self):
+        self.picture.write_bytes(black_png(8000, 8000))
+        for arguments in (["--method", "bilateral", self.picture, "-o", self.folder / "out.exr"], ["compare", self.picture, self.picture]):
+            self.assertGreater(self.expect_refusal([*arguments, "--max-memory", "100"]), 1000)
+
+    def test_the_picture_of_a_density(self):
+        self.expect_refusal(["scene", "dof", "--density", self.header, "-o", self.folder / "out.exr", "--max-memory", "1000"])
+
+    def test_a_header_that_promises_more_than_there_is(self):
+        arguments = ["--method", "bilateral", self.header, "-o", self.folder / "out.exr"]
+        self.expect_refusal([*arguments, "--max-memory", "1000"])
+        code, text, peak = self.run_rpf(*arguments, "--max-memory", "100000")
+        self.assertEqual(code, 3, text)
+        if not SANITIZED:
+            self.assertLess(peak, 2 * PROGRAM_MB)  # memory is taken for pixels that come
+
+    def test_the_limit_of_a_control_group(self):
+        groups = Path("/sys/fs/cgroup/memory")
+        own = re.search(r"^\d+:memory:(.*)$", Path("/proc/self/cgroup").read_text(encoding="utf-8"), re.M)
+        group = groups / (own[1].lstrip("/") if own else "") / f"rpf-test-{os.getpid()}"
+        try:
+            group.mkdir()
+            (group / "memory.limit_in_bytes").write_text(str(300 << 20))
+            inner = group / "inner"
+            inner.mkdir()
+        except OSError:
+            self.skipTest("skipped: no control group of version 1 can be made")
+        try:
+            result = subprocess.run(["sh", "-c", 'echo $$ > "$0/cgroup.procs" && exec "$@"', inner, RPF, EXAMPLE, "--dry-run"], capture_output=True, text=True, check=False)
+            self.assertIn("of at most 270 MB", result.stdout + result.stderr)
+        finally:
+            inner.rmdir()
+            group.rmdir()
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

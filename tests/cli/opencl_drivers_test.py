@@ -1,0 +1,201 @@
+"""OpenCL drivers that abort, hang, crash or talk, and what the command then does. Usage: opencl_drivers_test.py RPF PROJECT"""
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+RPF, PROJECT = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+EXAMPLE = PROJECT / "examples" / "dof-spheres.samples.exr"
+SMALL = ["--boxes", "5,3", "--crop", "16x12+20+20"]
+SANITIZED = b"__asan_init" in RPF.read_bytes()
+
+# A driver that does something as soon as it is loaded, and leaves a line in $STARTS.
+DRIVER = """
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+__attribute__((constructor)) static void start(void) {
+  FILE* starts = fopen(getenv("STARTS"), "a");
+  fprintf(starts, "%d\\n", getpid());
+  fclose(starts);
+  fprintf(stderr, "this driver is broken\\n");
+  FAULT;
+}
+"""
+FAULTS = {"aborts": "abort()", "crashes": "raise(SIGSEGV)", "exits": "_exit(0)", "divides": "raise(SIGFPE)"}
+
+# In place of rpf_probe: leaves a line in $ASKED, and aborts where it is asked for what $ABORTS_AT says.
+ASKING = """#!/bin/sh
+echo "$1" >> "$ASKED"
+if [ "$1" = "$ABORTS_AT" ]; then echo "the compiler failed" >&2; kill -ABRT $$; fi
+exec "{}" "$@"
+"""
+
+
+class Drivers(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="rpf drivers "))
+        self.output, self.reference, self.starts, self.asked = (self.folder / name for name in ("out.exr", "reference.exr", "starts", "asked"))
+        self.expect(self.filter("cpu", output=self.reference), 0)
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def run_rpf(self, *arguments, rpf=RPF, prefix=(), **environment):
+        environment = {"RPF_CACHE_DIR": self.folder / "cache", "STARTS": self.starts, "ASKED": self.asked, **environment}
+        return subprocess.run([*prefix, rpf, *map(str, arguments)], capture_output=True, text=True, check=False,
+                              env={**os.environ, **{name: str(value) for name, value in environment.items()}})
+
+    def filter(self, backend, *more, output=None, **environment):
+        return self.run_rpf(EXAMPLE, "-o", output or self.output, "--backend", backend, *SMALL, *more, **environment)
+
+    def expect(self, result, code, *texts):
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        for text in texts:
+            self.assertIn(text, result.stdout + result.stderr)
+
+    def expect_same_bits(self):
+        self.expect(self.run_rpf("compare", self.output, self.reference, "--max-error", "0"), 0)
+        self.output.unlink()
+
+    def expect_cpu(self, *texts, **environment):
+        """No device for --backend=opencl; auto takes the reference and says why."""
+        self.expect(self.filter("opencl", **environment), 5, "--backend=cpu", *texts)
+        self.assertFalse(self.output.exists())
+        self.expect(self.filter("auto", **environment), 0, "backend cpu (no OpenCL", *texts)
+        self.expect_same_bits()
+        self.assertEqual(self.filter("auto", "-q", **environment).stderr, "")
+        self.expect_same_bits()
+
+    def driver(self, fault):
+        """The environment in which there is only such a driver."""
+        vendors = self.folder / "vendors"
+        vendors.mkdir(exist_ok=True)
+        library = vendors / "driver.so"
+        subprocess.run(["cc", "-shared", "-fPIC", "-x", "c", "-o", library, "-"], input=DRIVER.replace("FAULT", fault), text=True, check=True)
+        (vendors / "driver.icd").write_text(f"{library}\n")
+        return {"OCL_ICD_VENDORS": vendors}
+
+    def loaded(self):
+        return len(self.starts.read_text().split())
+
+    # ---- drivers
+
+    def test_a_driver_that_ends_the_process(self):
+        for name, fault in FAULTS.items():
+            with self.subTest(name):
+                broken = self.driver(fault)
+                self.expect_cpu("this driver is broken", **broken)
+                self.expect(self.run_rpf("devices", **broken), 5, "this driver is broken", "--backend=cpu")
+
+    def test_what_is_known_of_a_driver_is_remembered(self):
+        broken = self.driver("abort()")
+        self.expect(self.filter("opencl", **broken), 5)
+        self.expect(self.filter("opencl", **broken), 5, "this driver is broken", "last hour")
+        self.assertEqual(self.loaded(), 1)
+        self.run_rpf("devices", **broken)  # asks again
+        self.assertEqual(self.loaded(), 2)
+        self.driver("abort(); abort()")  # another one
+        self.expect(self.filter("opencl", **broken), 5)
+        self.assertEqual(self.loaded(), 3)
+
+    def test_a_driver_that_hangs(self):
+        broken = self.driver("for (;;) pause()")
+        self.expect(self.filter("opencl", **broken), 5, "no answer", "--backend=cpu")
+        self.expect(self.filter("auto", **broken), 0, "backend cpu (no OpenCL", "no answer")
+        self.expect_same_bits()
+        self.assertEqual(self.loaded(), 1)  # the second time nobody waits
+
+    def test_nothing_is_left_behind(self):
+        environment = {**os.environ, "RPF_CACHE_DIR": str(self.folder / "cache"), "STARTS": str(self.starts), **{k: str(v) for k, v in self.driver("for (;;) pause()").items()}}
+        for number in (signal.SIGTERM, signal.SIGKILL):
+            self.starts.unlink(missing_ok=True)
+            with subprocess.Popen([RPF, EXAMPLE, "-o", self.output, "--backend=opencl"], env=environment) as process:
+                while not self.starts.exists() or not self.starts.read_text().endswith("\n"):
+                    time.sleep(0.05)
+                process.send_signal(number)
+                process.wait()
+            child = Path("/proc") / self.starts.read_text().strip() / "cmdline"
+            for _ in range(100):
+                if not child.exists() or not child.read_bytes():
+                    break
+                time.sleep(0.05)
+            else:
+                self.fail("the process that asks the driver is still there")
+
+    # ---- machines on which PoCL aborts
+
+    def test_kernels_on_a_file_system_that_runs_nothing(self):
+        (self.folder / "cache").mkdir()
+        mounts = ["unshare", "-m", "sh", "-c", f'mount -t tmpfs -o noexec none "{self.folder}/cache" && exec "$@"', "sh"]
+        if subprocess.run([*mounts, "true"], capture_output=True, check=False).returncode != 0:
+            self.skipTest("skipped: mounting is not permitted")
+        self.expect_cpu("Aborted", prefix=mounts)
+
+    def test_without_sys(self):
+        mounts = ["unshare", "-m", "sh", "-c", 'mount -t tmpfs none /sys && exec "$@"', "sh"]
+        if subprocess.run([*mounts, "true"], capture_output=True, check=False).returncode != 0:
+            self.skipTest("skipped: mounting is not permitted")
+        self.expect(self.filter("opencl"), 0)  # what is known of another machine does not matter
+        self.output.unlink()
+        self.expect_cpu("Aborted", prefix=mounts)
+        self.expect(self.run_rpf("devices", prefix=mounts), 5, "Aborted")
+
+    def test_without_a_linker(self):
+        self.expect_cpu("Final linking", PATH="/nonexistent")
+        self.expect(self.run_rpf("devices"), 0, "keeps the numeric contract")  # compiles the self-test
+        self.expect_cpu("Final linking", PATH="/nonexistent", STARTS="other")  # and now the filter's kernel is the first
+
+    # ---- first builds of kernels
+
+    def asking(self):
+        """rpf beside a program that asks as `ASKING` does."""
+        folder = self.folder / "bin"
+        folder.mkdir()
+        shutil.copy(RPF, folder / "rpf")
+        (folder / "rpf_probe").write_text(ASKING.format(RPF.parent / "rpf_probe"))
+        (folder / "rpf_probe").chmod(0o755)
+        return {"rpf": folder / "rpf"}
+
+    def test_a_kernel_whose_first_build_aborts(self):
+        rpf = self.asking()
+        self.expect_cpu("the compiler failed", ABORTS_AT="build", **rpf)
+        self.assertEqual(self.asked.read_text().split(), ["test", "build"])  # both verdicts are remembered
+
+    def test_good_verdicts_are_remembered(self):
+        rpf = self.asking()
+        for _ in range(3):
+            self.expect(self.filter("opencl", **rpf), 0)
+            self.expect_same_bits()
+        self.assertEqual(self.asked.read_text().split(), ["test", "build"])
+        shutil.rmtree(self.folder / "cache" / "pocl")  # what is gone is compiled again, where it can do no harm
+        self.expect(self.filter("opencl", **rpf), 0)
+        self.assertEqual(self.asked.read_text().split(), ["test", "build", "build"])
+
+    def test_without_the_program_that_asks(self):
+        rpf = self.asking()["rpf"]
+        (rpf.parent / "rpf_probe").write_text("#!/nonexistent\n")
+        self.expect_cpu("rpf_probe", rpf=rpf)
+
+    # ---- what compilers say
+
+    def test_warnings_of_a_compiler_are_not_ours(self):
+        talking = {"POCL_EXTRA_BUILD_FLAGS": "-DRPF_EPSILON=2"}  # a macro that the kernels define anew
+        for backend in ("opencl", "auto"):
+            for quiet in ([], ["-q"]):
+                with self.subTest(backend=backend, quiet=quiet):
+                    shutil.rmtree(self.folder / "cache", ignore_errors=True)
+                    result = self.filter(backend, *quiet, **talking)
+                    self.expect(result, 0)
+                    self.assertNotIn("warning", result.stdout + result.stderr)
+                    self.expect_same_bits()
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
