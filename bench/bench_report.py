@@ -11,7 +11,7 @@ import subprocess
 from pathlib import Path
 
 import scaling
-from trade_tables import replace
+from marked_page import replace
 
 PROJECT = Path(__file__).resolve().parent.parent
 PAGE, PICTURE = PROJECT / "docs/bench.md", PROJECT / "docs/images/scaling.png"

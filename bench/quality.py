@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 import oidn
-from trade_tables import replace
+from marked_page import replace
 
 PROJECT = Path(__file__).resolve().parent.parent
 

@@ -14,8 +14,9 @@ import sys
 from pathlib import Path
 
 import oidn
+from marked_page import replace
 from trade_plots import plot_frame, plot_summary
-from trade_tables import chosen_table, frames_table, replace, settings_table
+from trade_tables import chosen_table, frames_table, settings_table
 
 PROJECT = Path(__file__).resolve().parent.parent
 PAGE, PICTURES = PROJECT / "docs/trade.md", PROJECT / "docs/images"

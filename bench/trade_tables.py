@@ -3,13 +3,6 @@ from trade_data import NAMED, is_ours, pareto, summary
 from trade_plots import file_name
 
 
-def replace(page, name, rows):
-    """Puts the rows between the marks <!-- name --> and <!-- end -->."""
-    begin = page.index(f"<!-- {name} -->") + len(f"<!-- {name} -->")
-    end = page.index("<!-- end -->", begin)
-    return page[:begin] + "\n" + "\n".join(rows) + "\n" + page[end:]
-
-
 def chosen_table(points):
     """What has a name, over all frames."""
     over_all = summary(points)
