@@ -75,10 +75,4 @@ Image read_image(const std::string& path);
 /// transfer function, clamped to [0,1]; all others get linear float and the metadata. Throws Error(output).
 void write_image(const std::string& path, const Image& image);
 
-/// Throws Error(output) where a later write to `path` is known to fail: its folder is missing, it is a folder itself,
-/// or no format goes with its extension. For finding out before an hour of filtering. Leaves nothing.
-void check_target(const std::string& path);
-/// The same for write_samples().
-void check_sample_target(const std::string& path);
-
 }  // namespace rpf

@@ -12,6 +12,7 @@
 #include "rpf/error.h"
 #include "rpf/io.h"
 #include "rpf/metrics.h"
+#include "rpf/outputs.h"
 
 namespace rpf::cli {
 namespace {
@@ -69,9 +70,17 @@ bool above_limit(const Comparison& comparison, double limit) {
   return above;
 }
 
+std::vector<PlannedOutput> planned_outputs(const Options& options) {
+  std::vector<PlannedOutput> outputs;
+  for (const std::string& picture : {options.side_by_side, options.diff})
+    if (!picture.empty()) outputs.push_back({picture});
+  return outputs;
+}
+
 int run(const Options& options) {
   if (options.files.size() < 2)
     throw Error(ErrorKind::usage, "compare: one or more images and, last, their reference are expected");
+  check_outputs(planned_outputs(options), options.files);
   std::vector<Image> images;
   for (const std::string& file : options.files) images.push_back(read_image(file));
   const Comparison comparison = compare(options, images);

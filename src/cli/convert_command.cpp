@@ -1,6 +1,7 @@
 #include "cli/commands.h"
 #include "cli/sample_options.h"
 #include "rpf/error.h"
+#include "rpf/outputs.h"
 
 namespace rpf::cli {
 namespace {
@@ -11,7 +12,7 @@ int run(const SampleFileOptions& options) {
   const std::string& input = options.inputs.front();
   const SampleReadOptions read_options = read_options_of(options);
   const SampleFileInfo file = inspect_samples(input, read_options);
-  check_sample_target(options.output);
+  check_outputs({{options.output, OutputKind::samples, {}, {}, true}}, {input});
   return write_and_tell(options.output, read_samples(input, read_options), half_slots_of({file}));
 }
 

@@ -10,6 +10,7 @@
 #include "cli/signals.h"
 #include "rpf/error.h"
 #include "rpf/io.h"
+#include "rpf/outputs.h"
 #include "rpf/scene.h"
 
 namespace rpf::cli {
@@ -48,7 +49,12 @@ void check_usage(const Options& o) {
   if (o.name.empty()) throw Error(ErrorKind::usage, "scene: no name; rpf scene --list says which scenes there are");
   if (o.output.empty())
     throw Error(ErrorKind::usage, "scene: no output; name the file to write with -o, as in -o dof.samples.exr");
-  check_sample_target(o.output);
+}
+
+PlannedOutput planned_output(const Options& o) {
+  PlannedOutput output{o.output, o.reference > 0 ? OutputKind::image : OutputKind::samples};
+  std::tie(output.window.width, output.window.height) = size_of(o.size);
+  return output;
 }
 
 std::string progress_mode(const Options& o) { return o.quiet ? "never" : o.progress; }
@@ -91,6 +97,7 @@ int run(const Options& o) {
     return 0;
   }
   check_usage(o);
+  check_outputs({planned_output(o)}, o.density.empty() ? std::vector<std::string>{} : std::vector{o.density});
   const SceneOptions scene = scene_options(o);
   if (o.reference > 0)
     write_reference_image(o, scene);

@@ -23,15 +23,15 @@ void check_image(const std::string& path, const Image& image) {
 
 }  // namespace
 
-Image read_image(const std::string& path) { return io::image_library().read(path); }
+Image read_image(const std::string& path) { return io::image_library(ErrorKind::input, path).read(path); }
 
 void write_image(const std::string& path, const Image& image) {
   check_image(path, image);
   io::AtomicFile file(path);  // first: a folder or /dev/full is no question of its extension
-  if (std::string(io::format_of(path).extension) == ".exr")
-    io::write_exr_image(path, file, image);
+  if (io::format_of(path).library)
+    io::image_library(ErrorKind::output, path).write(path, file, image);
   else
-    io::image_library().write(path, file, image);
+    io::write_exr_image(path, file, image);
   file.commit();
 }
 

@@ -1,0 +1,35 @@
+// What is going to be written, decided before the work: all files of a command together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rpf/image.h"
+
+namespace rpf {
+
+enum class OutputKind { image, samples, page };
+
+/// A file that is going to be written.
+struct PlannedOutput {
+  std::string path;
+  OutputKind kind = OutputKind::image;
+  std::vector<std::string> channels = {"R", "G", "B"};  ///< of an image
+  Window window = {};                                   ///< of an image; no size: not known yet
+  bool may_be_input = false;                            ///< it is a new form of an input, so it may take its place
+  bool makes_folder = false;                            ///< its folder is made when it is missing
+};
+
+/// Refuses what would fail or destroy something after the work. Throws Error(output) where a target cannot be written
+/// (docs/file-format.md, "Files that are written"), where its extension is of no format or its format cannot hold the
+/// channels or the size, or where the library of its format is missing; Error(usage) where two outputs are one file, or
+/// an output is an input that it must not replace. Leaves nothing.
+void check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<std::string>& inputs);
+
+/// Whether two paths lead to one file, whatever they are called.
+bool is_same_file(const std::string& a, const std::string& b);
+
+/// Makes a folder and those above it that are missing. Throws Error(output).
+void make_folder(const std::string& path);
+
+}  // namespace rpf
