@@ -35,6 +35,8 @@ struct SampleFileInfo {
   std::uint32_t min_samples = 0, max_samples = 0;  ///< per pixel
   std::uint64_t empty_pixels = 0;                  ///< pixels without samples
   Metadata metadata;
+  int value_bits = 32;                               ///< of an image: as the file stores a value
+  std::vector<std::string> dropped_attributes = {};  ///< of types that Metadata does not have, as "name (type)"
 };
 
 struct SampleReadOptions {
@@ -68,7 +70,8 @@ SampleBuffer read_samples(const std::string& path, const SampleReadOptions& opti
 void write_samples(const std::string& path, const SampleBuffer& samples,
                    const std::vector<std::string>& half_slots = {});
 
-/// Reads any image that OpenImageIO knows as linear float. Throws Error(input).
+/// Reads any image that OpenImageIO knows as linear float. Throws Error(input), also for files of several images:
+/// parts, pages, frames.
 Image read_image(const std::string& path);
 
 /// Writes an image; the extension chooses the format. Formats of 8 bits (png, jpg, ...) get R, G, B (A) with the sRGB

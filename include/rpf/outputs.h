@@ -29,6 +29,9 @@ void check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<
 /// Whether two paths lead to one file, whatever they are called.
 bool is_same_file(const std::string& a, const std::string& b);
 
+/// Bits of a value in an image with this name: 8, or 32 of a float. Throws Error(output) for an unknown extension.
+int stored_bits(const std::string& path);
+
 /// Makes a folder and those above it that are missing. Throws Error(output).
 void make_folder(const std::string& path);
 

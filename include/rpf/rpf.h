@@ -11,6 +11,7 @@
 #include "rpf/methods.h"
 #include "rpf/metrics.h"
 #include "rpf/outputs.h"
+#include "rpf/ranges.h"
 #include "rpf/samples.h"
 #include "rpf/scene.h"
 #include "rpf/settings.h"

@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/compare_report.h"
 #include "cli/filter_options.h"
+#include "cli/numbers.h"
 #include "cli/print.h"
 #include "report/heat_map.h"
 #include "report/picture.h"
@@ -29,11 +30,30 @@ struct Options {
   bool limited = false;  ///< max_error was given
 };
 
+/// Errors name the two files.
+ImageError error_of(const Options& options, std::size_t number, const std::vector<Image>& images) {
+  try {
+    return compare_images(images[number], images.back());
+  } catch (const Error& e) {
+    throw Error(e.kind(), fmt::format("\"{}\", measured against \"{}\": {}", options.files[number],
+                                      options.files.back(), e.what()));
+  }
+}
+
 Comparison compare(const Options& options, const std::vector<Image>& images) {
   Comparison comparison{{}, options.files.back(), options.diff};
   for (std::size_t i = 0; i + 1 < images.size(); ++i)
-    comparison.images.push_back({options.files[i], compare_images(images[i], images.back())});
+    comparison.images.push_back({options.files[i], error_of(options, i, images)});
   return comparison;
+}
+
+/// The same pixels in another frame: they can be compared, but one of the two may be wrong.
+void tell_display_windows(const Options& options, const std::vector<Image>& images) {
+  const Window& expected = images.back().display_window;
+  for (std::size_t i = 0; i + 1 < images.size(); ++i)
+    if (!(images[i].display_window == expected))
+      remark("rpf: note: \"{}\" has the display window {}, its reference {}\n", options.files[i],
+             text_of(images[i].display_window), text_of(expected));
 }
 
 Image heat_maps(const std::vector<Image>& images) {
@@ -54,8 +74,8 @@ std::optional<Window> crop_of(const std::string& zoom, const std::vector<Image>&
   };
   const std::int64_t x = std::int64_t{crop.x} - frame.x, y = std::int64_t{crop.y} - frame.y;
   if (!inside(x, crop.width, frame.width) || !inside(y, crop.height, frame.height))
-    throw Error(ErrorKind::usage, fmt::format("--zoom {}: not inside the reference's data window {}x{}{:+}{:+}", zoom,
-                                              frame.width, frame.height, frame.x, frame.y));
+    throw Error(ErrorKind::usage,
+                fmt::format("--zoom {}: not inside the reference's data window {}", zoom, text_of(frame)));
   return Window{static_cast<int>(x), static_cast<int>(y), crop.width, crop.height};
 }
 
@@ -84,6 +104,7 @@ int run(const Options& options) {
   std::vector<Image> images;
   for (const std::string& file : options.files) images.push_back(read_image(file));
   const Comparison comparison = compare(options, images);
+  tell_display_windows(options, images);
   if (!options.side_by_side.empty())
     write_image(options.side_by_side, report::side_by_side(images, crop_of(options.zoom, images)));
   if (!options.diff.empty()) write_image(options.diff, heat_maps(images));
@@ -111,9 +132,9 @@ Command add_compare_command(CLI::App& app) {
   command->add_option("--diff", options->diff, "Also write heat maps of the relative squared error, with a legend")
       ->type_name("FILE.png");
   command->add_flag("--json", options->json, "Print JSON in place of the tables");
-  CLI::Option* limit =
-      command->add_option("--max-error", options->max_error, "Exit code 1 where an image's relMSE is above this")
-          ->check(CLI::NonNegativeNumber);
+  CLI::Option* limit = restrict_to(
+      command->add_option("--max-error", options->max_error, "Exit code 1 where an image's relMSE is above this"),
+      ranges::error);
   return [options, limit] {
     options->limited = limit->count() > 0;
     return run(*options);

@@ -8,6 +8,7 @@
 #include "cli/explain_pages.h"
 #include "cli/filter_options.h"
 #include "cli/needs.h"
+#include "cli/numbers.h"
 #include "cli/print.h"
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
@@ -102,8 +103,7 @@ Command add_explain_command(CLI::App& app) {
   command->add_option("-o,--output", options->filter.output, "Folder for explain.exr, pictures and index.html")
       ->type_name("DIR");
   command->add_option("--pixel", options->pixel, "Also a page with everything about this pixel")->type_name("X,Y");
-  command->add_option("--box", options->box, "Box width of the pass that is explained")
-      ->check(CLI::PositiveNumber)
+  restrict_to(command->add_option("--box", options->box, "Box width of the pass that is explained"), ranges::box_width)
       ->default_str("21");
   add_map_option(*command, options->filter.map);
   add_channel_options(*command, options->filter);

@@ -5,6 +5,7 @@
 
 #include "bench/frame_run.h"
 #include "cli/commands.h"
+#include "cli/dropped.h"
 #include "cli/feature_files.h"
 #include "cli/filter_input.h"
 #include "cli/filter_options.h"
@@ -136,6 +137,8 @@ int run(const FilterOptions& options, const std::vector<std::string>& arguments)
   check_features(options, info);
   check_budget(info, settings, options.verbose || options.dry_run);
   check_outputs(planned_outputs(options, info, settings), {options.input});
+  check_in_place(info, options.output);
+  if (!options.quiet) tell_dropped(info);
   if (options.dry_run) return 0;
 
   read_options.slots = needed_layout(info, settings).slots;

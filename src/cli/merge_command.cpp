@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/dropped.h"
 #include "cli/print.h"
 #include "cli/sample_options.h"
 #include "rpf/error.h"
@@ -41,6 +42,10 @@ int run(const SampleFileOptions& options) {
   for (const std::string& input : options.inputs) files.push_back(inspect_samples(input, read_options));
   check_budget(files, read_options.max_memory);
   check_outputs({{options.output, OutputKind::samples, {}, {}, true}}, options.inputs);
+  for (const SampleFileInfo& file : files) {
+    check_in_place(file, options.output);
+    tell_dropped(file);
+  }
   std::vector<SamplePart> parts;
   for (const std::string& input : options.inputs) parts.push_back({input, read_samples(input, read_options)});
   return write_and_tell(options.output, merge_samples(std::move(parts)), half_slots_of(files));

@@ -4,6 +4,7 @@
 
 #include "cli/environment.h"
 #include "cli/filter_options.h"
+#include "cli/numbers.h"
 #include "cli/print.h"
 #include "cli/signals.h"
 
@@ -22,9 +23,8 @@ void add_sample_file_options(CLI::App& command, SampleFileOptions& options) {
   command.add_option("INPUT", options.inputs, "Sample file")->required()->type_name("FILE");
   command.add_option("-o,--output", options.output, "Sample file to write")->required()->type_name("FILE");
   add_map_option(command, options.map);
-  command.add_option("--max-memory", options.max_memory_mb, "Memory limit in MB")
-      ->check(CLI::PositiveNumber)
-      ->envname("RPF_MAX_MEMORY_MB");
+  restrict_to(command.add_option("--max-memory", options.max_memory_mb, "Memory limit in MB"), ranges::megabytes,
+              "RPF_MAX_MEMORY_MB");
 }
 
 SampleReadOptions read_options_of(const SampleFileOptions& options) {

@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/environment.h"
 #include "cli/filter_options.h"
+#include "cli/numbers.h"
 #include "cli/print.h"
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
@@ -111,13 +112,14 @@ void add_options(CLI::App& command, Options& o) {
   command.add_flag("--list", o.list, "Say which scenes there are and what for");
   command.add_option("-o,--output", o.output, "Sample file to write, or with --reference the image")
       ->type_name("FILE.exr");
-  command.add_option("--spp", o.scene.samples, "Samples a pixel")->capture_default_str();
-  CLI::Option* reference =
-      command.add_option("--reference", o.reference, "Write the mean of N samples a pixel as an image instead")
-          ->type_name("N")
-          ->check(CLI::Range(2, 1048576));
+  restrict_to(command.add_option("--spp", o.scene.samples, "Samples a pixel"), ranges::samples)->capture_default_str();
+  CLI::Option* reference = restrict_to(command.add_option("--reference", o.reference,
+                                                          "Write the mean of N samples a pixel as an image instead"),
+                                       ranges::reference_samples)
+                               ->type_name("N");
   command.add_option("--size", o.size, "Pixels")->type_name("WxH")->capture_default_str();
-  command.add_option("--seed", o.scene.seed, "Seed of the random numbers")->capture_default_str();
+  restrict_to(command.add_option("--seed", o.scene.seed, "Seed of the random numbers"), ranges::seed)
+      ->capture_default_str();
   command.add_option("--sampler", o.sampler, "random, stratified, sobol")
       ->check(CLI::IsMember({"random", "stratified", "sobol"}))
       ->capture_default_str();
@@ -131,16 +133,16 @@ void add_options(CLI::App& command, Options& o) {
 }
 
 void add_world_options(CLI::App& command, Options& o) {
-  command.add_option("--world-scale", o.scene.world_scale, "Positions written are scaled by this")
+  restrict_to(command.add_option("--world-scale", o.scene.world_scale, "Positions written are scaled by this"),
+              ranges::world_scale)
       ->capture_default_str();
-  command.add_option("--world-offset", o.world_offset, "and moved by this")
+  restrict_to(command.add_option("--world-offset", o.world_offset, "and moved by this"), ranges::world_offset)
       ->type_name("X,Y,Z")
       ->delimiter(',')
       ->expected(3)
       ->default_str("0,0,0");
-  command.add_option("-t,--threads", o.scene.threads, "Threads; all cores if not given")
-      ->check(CLI::PositiveNumber)
-      ->envname("RPF_NUM_THREADS");
+  restrict_to(command.add_option("-t,--threads", o.scene.threads, "Threads; all cores if not given"), ranges::threads,
+              "RPF_NUM_THREADS");
   command.add_option("--progress", o.progress, "auto, never, always")
       ->check(CLI::IsMember({"auto", "never", "always"}))
       ->capture_default_str();

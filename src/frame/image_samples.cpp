@@ -32,6 +32,11 @@ SampleBuffer samples_of_image(const Image& image) {
   samples.data_window = image.data_window;
   samples.display_window = image.display_window;
   samples.metadata = image.metadata;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::string& channel = image.channels[columns[c]];
+    if (std::count(image.half_channels.begin(), image.half_channels.end(), channel) > 0)
+      samples.half_slots.emplace_back(1, "RGB"[c]);
+  }
   samples.layout.slots = {"R", "G", "B", "film.X", "film.Y"};
   if (columns.size() > 3) samples.layout.slots.emplace_back("A");
   samples.first_sample = {0};

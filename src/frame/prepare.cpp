@@ -200,8 +200,7 @@ Window wanted_region(const Window& data_window, const std::optional<Window>& cro
                       region.x <= data_window.width - c.width && region.y <= data_window.height - c.height;
   if (inside) return region;
   throw Error(ErrorKind::usage,
-              fmt::format("crop {}x{}+{}+{} is not inside the data window {}x{}+{}+{}", c.width, c.height, c.x, c.y,
-                          data_window.width, data_window.height, data_window.x, data_window.y));
+              fmt::format("--crop {} is not inside the data window {}", text_of(c), text_of(data_window)));
 }
 
 }  // namespace
@@ -214,11 +213,12 @@ std::uint32_t most_samples(const std::vector<std::uint32_t>& first_sample) {
 }
 
 PreparedFrame prepare(SampleBuffer samples, const Settings& settings) {
-  const Columns columns = find_columns(samples.layout);
+  const Columns columns = find_columns(samples, settings.clamp_infinite);
   const Selection selection = select_channels(samples.layout, settings);
   PreparedFrame result;
   result.facts.crop = wanted_region(samples.data_window, settings.crop);
-  result.notes = clean(samples, columns, settings.clamp_negative);
+  result.notes = check_conventions(samples);
+  for (InputNote& note : clean(samples, columns, settings.clamp_negative)) result.notes.push_back(std::move(note));
   if (settings.method != Method::rpf) center_missing_positions(samples, columns);
   result.facts.radiance_scale = radiance_scale(samples, columns);
   result.facts.position_diagonal = position_diagonal(samples, columns);

@@ -68,6 +68,8 @@ void check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<
 
 bool is_same_file(const std::string& a, const std::string& b) { return io::input_place(a).is_same(io::input_place(b)); }
 
+int stored_bits(const std::string& path) { return io::format_of(path).encoding == io::Encoding::srgb_bytes ? 8 : 32; }
+
 void make_folder(const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);
