@@ -24,7 +24,7 @@ using namespace rpf::io;
 
 std::string part_name(const oiio::ImageSpec& spec) {
   const std::string name = spec.get_string_attribute("oiio:subimagename");
-  return name.empty() ? spec.get_string_attribute("name") : name;
+  return name.empty() ? std::string(spec.get_string_attribute("name")) : name;
 }
 
 // Parts of an EXR file, pages of a TIFF, frames of a GIF: all but one would be lost.

@@ -11,6 +11,7 @@
 #include "io/attributes.h"
 #include "io/guard.h"
 #include "rpf/error.h"
+#include "rpf/samples.h"
 
 namespace rpf::io {
 namespace {

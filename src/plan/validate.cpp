@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -18,7 +19,9 @@ void require(const char* option, double value, const NumberRange& range) {
 
 bool NumberRange::has(double value) const {
   if (or_zero && value == 0) return true;
-  if (!(value >= least && value <= most)) return false;  // NaN too
+  // The floats nearest to the ends may lie beyond them.
+  const auto as_float = [&](double end) { return whole ? end : static_cast<double>(static_cast<float>(end)); };
+  if (!(value >= std::min(least, as_float(least)) && value <= std::max(most, as_float(most)))) return false;  // NaN too
   return (!whole || value == std::trunc(value)) && (!odd || std::fmod(value, 2) != 0);
 }
 
