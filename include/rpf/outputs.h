@@ -26,6 +26,9 @@ struct PlannedOutput {
 /// an output is an input that it must not replace. Leaves nothing.
 void check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<std::string>& inputs);
 
+/// Throws Error(usage) where a crop is not inside the data window, so that it has nothing to write.
+void check_crop(const Window& crop, const Window& data_window);
+
 /// Whether two paths lead to one file, whatever they are called.
 bool is_same_file(const std::string& a, const std::string& b);
 

@@ -136,6 +136,7 @@ int run(const FilterOptions& options, const std::vector<std::string>& arguments)
   if (input.image && options.sigma_color == 0) settings.sigma_color = image_sigma_color;
   check_features(options, info);
   check_budget(info, settings, options.verbose || options.dry_run);
+  if (settings.crop) check_crop(*settings.crop, info.data_window);
   check_outputs(planned_outputs(options, info, settings), {options.input});
   check_in_place(info, options.output);
   if (!options.quiet) tell_dropped(info);

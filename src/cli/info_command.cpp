@@ -53,7 +53,7 @@ void print_remarks(const SampleFileInfo& info, const SampleBuffer& samples) {
   for (const InputNote& note : check_conventions(samples))
     print("  note: {}: {} (first at pixel {},{})\n", note.what, note.count, note.x, note.y);
   if (!info.dropped_attributes.empty())
-    print("  attributes of types that are not read: {}\n", fmt::join(info.dropped_attributes, ", "));
+    print("  attributes of types that are not read: {}\n", fmt::format("{}", fmt::join(info.dropped_attributes, ", ")));
 }
 
 void print_memory(const SampleFileInfo& info) {

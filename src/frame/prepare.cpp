@@ -13,6 +13,7 @@
 #include "frame/prepare.h"
 #include "frame/selection.h"
 #include "rpf/error.h"
+#include "rpf/outputs.h"
 
 namespace rpf {
 namespace {
@@ -195,15 +196,20 @@ std::vector<float> repack(SampleBuffer& samples, const std::vector<Source>& sour
 /// The crop in frame coordinates; the whole frame without one.
 Window wanted_region(const Window& data_window, const std::optional<Window>& crop) {
   const Window c = crop.value_or(data_window);
-  const Window region{c.x - data_window.x, c.y - data_window.y, c.width, c.height};
-  const bool inside = region.x >= 0 && region.y >= 0 && c.width > 0 && c.height > 0 &&
-                      region.x <= data_window.width - c.width && region.y <= data_window.height - c.height;
-  if (inside) return region;
-  throw Error(ErrorKind::usage,
-              fmt::format("--crop {} is not inside the data window {}", text_of(c), text_of(data_window)));
+  check_crop(c, data_window);
+  return {c.x - data_window.x, c.y - data_window.y, c.width, c.height};
 }
 
 }  // namespace
+
+void check_crop(const Window& crop, const Window& data_window) {
+  const std::int64_t x = std::int64_t{crop.x} - data_window.x, y = std::int64_t{crop.y} - data_window.y;
+  const bool inside = x >= 0 && y >= 0 && crop.width > 0 && crop.height > 0 && x + crop.width <= data_window.width &&
+                      y + crop.height <= data_window.height;
+  if (!inside)
+    throw Error(ErrorKind::usage, fmt::format("--crop {} is not inside the data window {}; choose a part of it",
+                                              text_of(crop), text_of(data_window)));
+}
 
 std::uint32_t most_samples(const std::vector<std::uint32_t>& first_sample) {
   std::uint32_t most = 0;

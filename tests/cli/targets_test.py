@@ -155,6 +155,7 @@ class TargetsTest(CommandCase):
             self.expect_refused(4, "a.xyz", ".exr", arguments=[*common, self.folder / "a.xyz"])
         self.expect_refused(4, "x.rpf", ".exr", arguments=["scene", "dof", "--size", "8x6", "--reference", "2", "-o", self.folder / "x.rpf"])
         self.expect_refused(4, "x.png", ".exr", arguments=["scene", "dof", "--size", "8x6", "-o", self.folder / "x.png"])
+        self.expect_refused(2, "--crop 4x4+6+0", "8x6+0+0", arguments=[*FAST, "--dry-run", self.samples, "-o", self.output, "--crop", "4x4+6+0"])
         write_raw(self.samples, frame(17000, 1, 1), 17000, 1, 1)
         self.expect_refused(4, "16383", arguments=[*FAST, "--dry-run", self.samples, "-o", self.folder / "wide.webp"])
 
