@@ -27,13 +27,12 @@ void check_format(const PlannedOutput& output) {
   if (output.kind == OutputKind::samples) io::sample_format_of(output.path);
 }
 
-/// Where the file would be made first: the folder itself, or the nearest above it that is there.
+/// Where a file can be made before the work: in the folder, or where that will be made.
 std::string probed_path(const PlannedOutput& output) {
-  fs::path folder = io::folder_of(output.path);
+  const std::string folder = io::folder_of(output.path);
   std::error_code unknown;
   if (!output.makes_folder || fs::exists(folder, unknown)) return output.path;
-  while (!fs::exists(folder, unknown) && folder.has_relative_path()) folder = io::folder_of(folder.string());
-  return (folder / fs::path(output.path).filename()).string();
+  return (fs::path(io::folder_of(folder)) / fs::path(output.path).filename()).string();
 }
 
 /// Made and removed: the surest answer to whether it can be.
@@ -72,7 +71,7 @@ int stored_bits(const std::string& path) { return io::format_of(path).encoding =
 
 void make_folder(const std::string& path) {
   std::error_code error;
-  fs::create_directories(path, error);
+  fs::create_directory((fs::path(path) / "").parent_path(), error);
   if (error)
     throw Error(ErrorKind::output,
                 fmt::format("\"{}\" cannot be made ({}); name another folder", path, error.message()));

@@ -57,8 +57,8 @@ class TargetsTest(CommandCase):
         inside = aov / "P.exr"
         shutil.copy(self.samples, inside)
         self.expect_refused(2, "would be lost", arguments=[*FAST, inside, "-o", self.output, "--aov", aov])
-        self.expect(run(*FAST, self.samples, "-o", self.output, "--aov", str(self.folder / "new" / "deep") + "/"), 0)
-        self.assertEqual(sorted(p.name for p in (self.folder / "new" / "deep").iterdir()), ["N.exr", "P.exr", "albedo.exr"])
+        self.expect(run(*FAST, self.samples, "-o", self.output, "--aov", str(self.folder / "new") + "/"), 0)
+        self.assertEqual(sorted(p.name for p in (self.folder / "new").iterdir()), ["N.exr", "P.exr", "albedo.exr"])
 
     def test_a_group_that_is_a_path_does_not_leave_the_folder(self):
         channels = frame()

@@ -156,9 +156,10 @@ TEST(Outputs, AFolderThatIsMadeIsProvedWhereItWillBe) {
   const auto in = [&](const std::string& name) {
     return PlannedOutput{folder.file(name), OutputKind::image, {"R", "G", "B"}, {}, false, true};
   };
-  check_outputs({in("new/deep/a.exr"), in("new/deep/b.exr")}, {});
+  check_outputs({in("new/a.exr"), in("new/b.exr")}, {});
   EXPECT_EQ(folder.entry_count(), 0U);
   expect_error(error_for({in("new/a.exr"), in("new/a.exr")}), ErrorKind::usage, {"one file"});
+  expect_error(error_for({in("new/deep/a.exr")}), ErrorKind::output, {"new/deep/a.exr", "make the folder first"});
   write_bytes(folder.file("file"), "");
   expect_error(error_for({in("file/a.exr")}), ErrorKind::output, {"file/a.exr", "Not a directory"});
 }
