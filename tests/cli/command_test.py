@@ -264,7 +264,7 @@ class CommandTest(CommandCase):
     def test_scene_errors(self):
         name = ["scene", "dof", "-o", self.output]
         for arguments, code, text in ((["scene", "door", "-o", self.output], 2, "dof-edge"), (["scene"], 2, "--list"), (["scene", "dof"], 2, "no output"),
-                                      ([*name, "--size", "8"], 2, "--size 8"), ([*name, "--spp", "0"], 2, "samples a pixel is 0"),
+                                      ([*name, "--size", "8"], 2, "--size 8"), ([*name, "--spp", "0"], 2, "--spp"),
                                       ([*name, "--sampler", "dice"], 2, "dice"), ([*name, "--world-offset", "1,2"], 2, "world-offset"),
                                       ([*name, "--reference", "1"], 2, "reference"), ([*name, "--adaptive", "--reference", "8"], 2, "excludes"),
                                       ([*name, "--density", EXAMPLE.parent / "none.exr"], 3, "none.exr"), ([*name, "--density", REFERENCE], 2, "density"),

@@ -159,7 +159,7 @@ TEST(Outputs, AFolderThatIsMadeIsProvedWhereItWillBe) {
   check_outputs({in("new/a.exr"), in("new/b.exr")}, {});
   EXPECT_EQ(folder.entry_count(), 0U);
   expect_error(error_for({in("new/a.exr"), in("new/a.exr")}), ErrorKind::usage, {"one file"});
-  expect_error(error_for({in("new/deep/a.exr")}), ErrorKind::output, {"new/deep/a.exr", "make the folder first"});
+  expect_error(error_for({in("new/deep/a.exr")}), ErrorKind::output, {"new/a.exr", "make the folder first"});
   write_bytes(folder.file("file"), "");
   expect_error(error_for({in("file/a.exr")}), ErrorKind::output, {"file/a.exr", "Not a directory"});
 }
