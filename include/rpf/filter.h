@@ -48,6 +48,11 @@ struct InputNote {
   int x = 0, y = 0;  ///< pixel of the first one, in the coordinates of the data window
 };
 
+/// What in the values contradicts docs/file-format.md, so that the filter would quietly go wrong: positions outside
+/// their pixel, random numbers outside [0,1], normals that are not unit, and so on; each with what to do. Empty where
+/// nothing does.
+std::vector<InputNote> check_conventions(const SampleBuffer& samples);
+
 struct Report {
   std::string backend;                        ///< that ran, with its device: "cpu", "opencl (device)"; for "auto" why
   std::string model, model_hash;              ///< the network of a learned estimate: its name, and the hash of its file

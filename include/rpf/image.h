@@ -19,6 +19,9 @@ struct Window {
   bool operator==(const Window& o) const { return x == o.x && y == o.y && width == o.width && height == o.height; }
 };
 
+/// WxH+X+Y with the signs of X and Y, as 8x6-37-12: what --crop takes.
+std::string text_of(const Window& window);
+
 /// Named header values that travel from the input file to the output file. A vector of 9 or 16 floats is a matrix.
 using Attribute = std::variant<std::int32_t, float, std::string, std::vector<float>>;
 using Metadata = std::map<std::string, Attribute>;
@@ -30,6 +33,10 @@ struct Image {
   std::vector<std::string> channels;  ///< for example R, G, B, A, albedo.R
   std::vector<float> pixels;
   Metadata metadata;
+  int value_bits = 32;                          ///< as the file stored a value: 8, 16, 32
+  std::string view = {};                        ///< of a stereo file: "left", "right"; empty where it says nothing
+  std::vector<std::string> half_channels = {};  ///< that were stored as half
+  std::vector<std::string> dropped = {};  ///< what the file has beside this: attributes of types without a place here
 
   std::size_t channel_count() const { return channels.size(); }
   /// The channels of pixel number `index` (row-major in the data window).

@@ -35,6 +35,8 @@ struct SampleFileInfo {
   std::uint32_t min_samples = 0, max_samples = 0;  ///< per pixel
   std::uint64_t empty_pixels = 0;                  ///< pixels without samples
   Metadata metadata;
+  int value_bits = 32;                               ///< of an image: as the file stores a value
+  std::vector<std::string> dropped_attributes = {};  ///< of types that Metadata does not have, as "name (type)"
 };
 
 struct SampleReadOptions {
@@ -68,24 +70,19 @@ SampleBuffer read_samples(const std::string& path, const SampleReadOptions& opti
 void write_samples(const std::string& path, const SampleBuffer& samples,
                    const std::vector<std::string>& half_slots = {});
 
-/// What the header of an image says: windows, channels and metadata. Has no pixels. Throws Error(input).
+/// What the header of an image says: windows, channels and metadata. Has no pixels. Throws Error(input), also for files
+/// of several images: parts, pages, frames.
 Image inspect_image(const std::string& path);
 
 /// Peak bytes of reading that image.
 std::uint64_t image_bytes(const Image& header);
 
-/// Reads any image that OpenImageIO knows as linear float. Throws Error(input), and Error(memory) where that needs more
-/// than `max_memory` bytes; 0: no limit.
+/// Reads any image that OpenImageIO knows as linear float. Throws Error(input) as inspect_image() does, and
+/// Error(memory) where that needs more than `max_memory` bytes; 0: no limit.
 Image read_image(const std::string& path, std::uint64_t max_memory = 0);
 
 /// Writes an image; the extension chooses the format. Formats of 8 bits (png, jpg, ...) get R, G, B (A) with the sRGB
 /// transfer function, clamped to [0,1]; all others get linear float and the metadata. Throws Error(output).
 void write_image(const std::string& path, const Image& image);
-
-/// Throws Error(output) where a later write to `path` is known to fail: its folder is missing, it is a folder itself,
-/// or no format goes with its extension. For finding out before an hour of filtering. Leaves nothing.
-void check_target(const std::string& path);
-/// The same for write_samples().
-void check_sample_target(const std::string& path);
 
 }  // namespace rpf

@@ -10,6 +10,8 @@
 #include "rpf/io.h"
 #include "rpf/methods.h"
 #include "rpf/metrics.h"
+#include "rpf/outputs.h"
+#include "rpf/ranges.h"
 #include "rpf/samples.h"
 #include "rpf/scene.h"
 #include "rpf/settings.h"

@@ -48,10 +48,14 @@ struct SampleBuffer {
       first_sample;  ///< [pixel_count + 1]: the samples of pixel p are first_sample[p] .. first_sample[p + 1] - 1
   std::vector<float> values;  ///< [sample_count][layout.size()]
   Metadata metadata;
+  /// Slots that were stored as half: there an infinite value is light that overflowed, at 65504.
+  std::vector<std::string> half_slots = {};
 
   std::size_t sample_count() const { return first_sample.empty() ? 0 : first_sample.back(); }
   float* record(std::size_t sample) { return values.data() + sample * layout.size(); }
   const float* record(std::size_t sample) const { return values.data() + sample * layout.size(); }
+
+  bool is_half(const std::string& slot) const;
 
   /// Throws Error(input) that names the first invariant that does not hold.
   void validate() const;

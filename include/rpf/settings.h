@@ -10,6 +10,11 @@
 
 namespace rpf {
 
+struct Settings;
+
+/// Throws Error(usage) for a setting that cannot be, with its option and its range.
+void validate(const Settings& settings);
+
 /// algorithm.md, sections 3 and 7.
 enum class Profile {
   thesis,  ///< M = b^2 / 2 samples a neighborhood; also the position inside the pixel is a random parameter
@@ -74,6 +79,9 @@ struct Settings {
   bool reject_second_hit = false;  ///< features of the second hit (N2, P2, ...) take part in the rejection test
   bool bias_correction = false;    ///< subtract (B-1)^2 / (2N) from every mutual information
   bool clamp_negative = false;     ///< negative radiance becomes 0
+  /// Infinite radiance of float channels becomes the largest float, as that of half channels always becomes 65504; if
+  /// not, such a sample is left out: in float it is a fault of the renderer, in half a bright light.
+  bool clamp_infinite = false;
 
   // Methods with fixed weights. The standard deviation on the film is a quarter of the box width, in pixels.
   float sigma_color = 30;      ///< in the unit of the radiance (linear, over R, G and B together); 1e-30 .. 1e30

@@ -1,5 +1,6 @@
 #include "cli/bench.h"
 #include "cli/commands.h"
+#include "cli/numbers.h"
 
 namespace rpf::cli {
 namespace {
@@ -14,8 +15,7 @@ void add_frames(CLI::App& command, BenchFrames& frames) {
 }
 
 void add_rounds(CLI::App& command, int& rounds, bool& json) {
-  command.add_option("--rounds", rounds, "How often each is measured, in turns")
-      ->check(CLI::PositiveNumber)
+  restrict_to(command.add_option("--rounds", rounds, "How often each is measured, in turns"), ranges::rounds)
       ->capture_default_str();
   command.add_flag("--json", json, "For programs");
 }
@@ -46,7 +46,7 @@ CLI::App* add_sweep_command(CLI::App& bench, SweepOptions& o) {
       bench.add_subcommand("sweep", "All settings of a plan on all its frames; goes on where it was stopped");
   command->add_option("PLAN", o.plan, "Frames and settings as JSON (docs/bench.md)")->required()->type_name("FILE");
   command->add_option("-o,--output", o.output, "Results, one line of JSON each")->required()->type_name("FILE");
-  command->add_option("--rounds", o.rounds, "In place of the plan's number")->check(CLI::PositiveNumber);
+  restrict_to(command->add_option("--rounds", o.rounds, "In place of the plan's number"), ranges::rounds);
   return command;
 }
 

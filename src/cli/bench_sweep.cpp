@@ -7,6 +7,7 @@
 #include "cli/bench.h"
 #include "cli/signals.h"
 #include "rpf/error.h"
+#include "rpf/outputs.h"
 
 namespace rpf::cli {
 namespace {
@@ -61,6 +62,9 @@ int run_sweep(const SweepOptions& options) {
   const bench::SweepPlan plan = bench::read_sweep_plan(options.plan, options.output + ".scenes");
   for (const bench::SweepSetting& setting : plan.settings)
     job_of({}, setting);  // a bad option shows before hours of work
+  std::vector<std::string> inputs = {options.plan};
+  for (const bench::SweepFrame& frame : plan.frames) inputs.insert(inputs.end(), {frame.samples, frame.reference});
+  check_outputs({{options.output, OutputKind::page}}, inputs);
   Sweep sweep(plan, options.output);
   const int rounds = options.rounds > 0 ? options.rounds : plan.rounds;
   for (int round = 0; round < rounds; ++round) sweep.run_round(round);

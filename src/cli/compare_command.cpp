@@ -8,12 +8,14 @@
 #include "cli/compare_report.h"
 #include "cli/environment.h"
 #include "cli/filter_options.h"
+#include "cli/numbers.h"
 #include "cli/print.h"
 #include "report/heat_map.h"
 #include "report/picture.h"
 #include "rpf/error.h"
 #include "rpf/io.h"
 #include "rpf/metrics.h"
+#include "rpf/outputs.h"
 
 namespace rpf::cli {
 namespace {
@@ -31,11 +33,30 @@ struct Options {
   bool limited = false;  ///< max_error was given
 };
 
+/// Errors name the two files.
+ImageError error_of(const Options& options, std::size_t number, const std::vector<Image>& images) {
+  try {
+    return compare_images(images[number], images.back());
+  } catch (const Error& e) {
+    throw Error(e.kind(), fmt::format("\"{}\", measured against \"{}\": {}", options.files[number],
+                                      options.files.back(), e.what()));
+  }
+}
+
 Comparison compare(const Options& options, const std::vector<Image>& images) {
   Comparison comparison{{}, options.files.back(), options.diff};
   for (std::size_t i = 0; i + 1 < images.size(); ++i)
-    comparison.images.push_back({options.files[i], compare_images(images[i], images.back())});
+    comparison.images.push_back({options.files[i], error_of(options, i, images)});
   return comparison;
+}
+
+/// The same pixels in another frame: they can be compared, but one of the two may be wrong.
+void tell_display_windows(const Options& options, const std::vector<Image>& images) {
+  const Window& expected = images.back().display_window;
+  for (std::size_t i = 0; i + 1 < images.size(); ++i)
+    if (!(images[i].display_window == expected))
+      remark("rpf: note: \"{}\" has the display window {}, its reference {}\n", options.files[i],
+             text_of(images[i].display_window), text_of(expected));
 }
 
 Image heat_maps(const std::vector<Image>& images) {
@@ -56,8 +77,8 @@ std::optional<Window> crop_of(const std::string& zoom, const std::vector<Image>&
   };
   const std::int64_t x = std::int64_t{crop.x} - frame.x, y = std::int64_t{crop.y} - frame.y;
   if (!inside(x, crop.width, frame.width) || !inside(y, crop.height, frame.height))
-    throw Error(ErrorKind::usage, fmt::format("--zoom {}: not inside the reference's data window {}x{}{:+}{:+}", zoom,
-                                              frame.width, frame.height, frame.x, frame.y));
+    throw Error(ErrorKind::usage,
+                fmt::format("--zoom {}: not inside the reference's data window {}", zoom, text_of(frame)));
   return Window{static_cast<int>(x), static_cast<int>(y), crop.width, crop.height};
 }
 
@@ -93,14 +114,23 @@ void check_memory(const Options& options, std::uint64_t limit) {
                     options.files.size(), static_cast<double>(need) / megabyte, static_cast<double>(limit) / megabyte));
 }
 
+std::vector<PlannedOutput> planned_outputs(const Options& options) {
+  std::vector<PlannedOutput> outputs;
+  for (const std::string& picture : {options.side_by_side, options.diff})
+    if (!picture.empty()) outputs.push_back({picture});
+  return outputs;
+}
+
 int run(const Options& options) {
   if (options.files.size() < 2)
     throw Error(ErrorKind::usage, "compare: one or more images and, last, their reference are expected");
+  check_outputs(planned_outputs(options), options.files);
   const std::uint64_t limit = memory_limit(options.max_memory_mb);
   check_memory(options, limit);
   std::vector<Image> images;
   for (const std::string& file : options.files) images.push_back(read_image(file, limit));
   const Comparison comparison = compare(options, images);
+  tell_display_windows(options, images);
   if (!options.side_by_side.empty())
     write_image(options.side_by_side, report::side_by_side(images, crop_of(options.zoom, images)));
   if (!options.diff.empty()) write_image(options.diff, heat_maps(images));
@@ -129,9 +159,9 @@ Command add_compare_command(CLI::App& app) {
       ->type_name("FILE.png");
   add_memory_option(*command, options->max_memory_mb);
   command->add_flag("--json", options->json, "Print JSON in place of the tables");
-  CLI::Option* limit =
-      command->add_option("--max-error", options->max_error, "Exit code 1 where an image's relMSE is above this")
-          ->check(CLI::NonNegativeNumber);
+  CLI::Option* limit = restrict_to(
+      command->add_option("--max-error", options->max_error, "Exit code 1 where an image's relMSE is above this"),
+      ranges::error);
   return [options, limit] {
     options->limited = limit->count() > 0;
     return run(*options);

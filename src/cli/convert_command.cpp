@@ -1,6 +1,8 @@
 #include "cli/commands.h"
+#include "cli/dropped.h"
 #include "cli/sample_options.h"
 #include "rpf/error.h"
+#include "rpf/outputs.h"
 
 namespace rpf::cli {
 namespace {
@@ -11,7 +13,9 @@ int run(const SampleFileOptions& options) {
   const std::string& input = options.inputs.front();
   const SampleReadOptions read_options = read_options_of(options);
   const SampleFileInfo file = inspect_samples(input, read_options);
-  check_sample_target(options.output);
+  check_outputs({{options.output, OutputKind::samples, {}, {}, true}}, {input});
+  check_in_place(file, options.output);
+  tell_dropped(file);
   return write_and_tell(options.output, read_samples(input, read_options), half_slots_of({file}));
 }
 

@@ -6,28 +6,27 @@
 #include <limits>
 #include <string>
 
+#include "cli/numbers.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
 
 namespace rpf::cli {
 namespace {
 
-/// A positive number from the environment, 0 where the variable is not set.
-int positive_number(const char* variable) {
+/// A number of threads from the environment, 0 where the variable is not set.
+int threads_in(const char* variable) {
   const char* text = std::getenv(variable);
   if (text == nullptr || *text == 0) return 0;
-  char* end = nullptr;
-  const long value = std::strtol(text, &end, 10);
-  if (*end == 0 && value > 0 && value <= 1 << 20) return static_cast<int>(value);
-  throw Error(ErrorKind::usage,
-              fmt::format("environment variable {}='{}': a positive number is expected", variable, text));
+  const std::string refusal = refusal_of(text, ranges::threads, variable);
+  if (!refusal.empty()) throw Error(ErrorKind::usage, refusal + ", or --threads beside it");
+  return std::atoi(text);
 }
 
 }  // namespace
 
 int default_threads() {
   for (const char* variable : {"SLURM_CPUS_PER_TASK", "CUE_THREADS"})
-    if (const int threads = positive_number(variable)) return threads;
+    if (const int threads = threads_in(variable)) return threads;
   return available_threads();
 }
 

@@ -2,19 +2,20 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <system_error>
 
 #include "cli/commands.h"
 #include "cli/environment.h"
 #include "cli/explain_pages.h"
 #include "cli/filter_options.h"
 #include "cli/needs.h"
+#include "cli/numbers.h"
 #include "cli/print.h"
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
 #include "report/plot.h"
 #include "rpf/error.h"
 #include "rpf/explain.h"
+#include "rpf/outputs.h"
 
 namespace rpf::cli {
 namespace {
@@ -45,26 +46,18 @@ Settings settings_of(const Options& o) {
 /// The folder to write to; it is made in the end, inside one that exists.
 fs::path folder_of(const Options& o) { return (fs::path(o.filter.output) / "").parent_path(); }
 
-/// Before an hour of work.
-void check_folder(const fs::path& folder) {
-  std::error_code unknown;  // what cannot be looked at cannot be written to either
-  const bool is_there = fs::is_directory(folder, unknown);
-  check_target(((is_there ? folder : folder.parent_path()) / "explain.exr").string());
-  if (!is_there && fs::exists(folder, unknown))
-    throw Error(ErrorKind::output, fmt::format("\"{}\" is a file; name a folder to write to", folder.string()));
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directory(folder, error);
-  if (error)
-    throw Error(ErrorKind::output,
-                fmt::format("\"{}\" cannot be made: {}; name another folder", folder.string(), error.message()));
+/// Before an hour of work. The names of all pictures are known only afterwards: one stands for them.
+void check_files(const Options& o) {
+  std::vector<PlannedOutput> outputs;
+  for (const char* name : {"explain.exr", "density.exr", "noise.png"})
+    outputs.push_back({(folder_of(o) / name).string(), OutputKind::image, {"R", "G", "B"}, {}, false, true});
+  outputs.push_back({(folder_of(o) / "index.html").string(), OutputKind::page, {}, {}, false, true});
+  check_outputs(outputs, {o.filter.input});
 }
 
 void write_pages(const Options& o, const Explanation& explanation) {
   const SignalGuard guard;  // a signal now waits until the files are whole
-  make_folder(folder_of(o));
+  make_folder(folder_of(o).string());
   if (explanation.pixel) write_pixel_page(o.filter.output, o.filter.input, explanation);
   write_explanation(o.filter.output, o.filter.input, explanation);
 }
@@ -84,7 +77,7 @@ int run(const Options& o) {
   const SampleFileInfo info = inspect_samples(o.filter.input, read_options);
   check_need(info, "explaining", predict_explain_memory(frame_size(info), needed_layout(info, settings), settings),
              settings.max_memory);
-  check_folder(folder_of(o));
+  check_files(o);
   read_options.slots = needed_layout(info, settings).slots;
   SampleBuffer samples = read_samples(o.filter.input, read_options);
   const Explanation explanation =
@@ -110,8 +103,7 @@ Command add_explain_command(CLI::App& app) {
   command->add_option("-o,--output", options->filter.output, "Folder for explain.exr, pictures and index.html")
       ->type_name("DIR");
   command->add_option("--pixel", options->pixel, "Also a page with everything about this pixel")->type_name("X,Y");
-  command->add_option("--box", options->box, "Box width of the pass that is explained")
-      ->check(CLI::PositiveNumber)
+  restrict_to(command->add_option("--box", options->box, "Box width of the pass that is explained"), ranges::box_width)
       ->default_str("21");
   add_map_option(*command, options->filter.map);
   add_channel_options(*command, options->filter);

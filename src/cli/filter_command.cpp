@@ -2,10 +2,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "bench/frame_run.h"
 #include "cli/commands.h"
+#include "cli/dropped.h"
+#include "cli/feature_files.h"
 #include "cli/filter_input.h"
 #include "cli/filter_options.h"
 #include "cli/method_options.h"
@@ -16,19 +17,15 @@
 #include "rpf/error.h"
 #include "rpf/filter.h"
 #include "rpf/methods.h"
+#include "rpf/outputs.h"
 #include "rpf/presets.h"
 
 namespace rpf::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 std::string list(const std::vector<std::string>& names) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
 }
-
-/// An existing folder, or a name that ends like one.
-bool is_folder(const std::string& path) { return fs::is_directory(path) || path.back() == '/'; }
 
 /// Needs more than the limit: refused before anything is read.
 void check_budget(const FilterInput& input, const Settings& settings, bool tell) {
@@ -70,33 +67,25 @@ void print_report(const Report& report) {
   }
 }
 
-/// One image per feature group, with the components as channels.
-void write_feature_files(const std::string& folder, const Image& features) {
-  fs::create_directories(folder);
-  const auto group = [&](std::size_t c) { return features.channels[c].substr(0, features.channels[c].find('.')); };
-  for (std::size_t first = 0, last = 0; first < features.channel_count(); first = last) {
-    while (last < features.channel_count() && group(last) == group(first)) ++last;
-    Image image = features;
-    image.channels.clear();
-    image.pixels.clear();
-    for (std::size_t c = first; c < last; ++c) {
-      const auto dot = features.channels[c].find('.');
-      image.channels.push_back(dot == std::string::npos ? "Y" : features.channels[c].substr(dot + 1));
-    }
-    for (std::size_t p = 0; p < features.data_window.pixel_count(); ++p)
-      image.pixels.insert(image.pixels.end(), features.pixel(p) + first, features.pixel(p) + last);
-    write_image((fs::path(folder) / (group(first) + ".exr")).string(), image);
-  }
-}
-
 void write_results(const FilterOptions& options, const Result& result) {
   const SignalGuard guard;  // a signal now waits until the files are whole
   write_image(options.output, result.image);
-  if (options.aov.empty()) return;
-  if (is_folder(options.aov))
-    write_feature_files(options.aov, result.features);
-  else
-    write_image(options.aov, result.features);
+  if (!options.aov.empty()) write_features(options.aov, result.features);
+}
+
+/// The files that will be written, known before the work.
+std::vector<PlannedOutput> planned_outputs(const FilterOptions& options, const SampleFileInfo& info,
+                                           const Settings& settings) {
+  const Window window = settings.crop.value_or(info.data_window);
+  std::vector<PlannedOutput> outputs;
+  if (!options.output.empty())
+    outputs.push_back({options.output, OutputKind::image, {"R", "G", "B", "A"}, window, true});
+  if (options.aov.empty()) return outputs;
+  std::vector<std::string> features;
+  for (const std::string& slot : needed_layout(info, settings).slots)
+    if (is_feature_slot(slot)) features.push_back(slot.substr(slot.find('.') + 1));
+  for (const PlannedOutput& file : planned_features(options.aov, features, window)) outputs.push_back(file);
+  return outputs;
 }
 
 void check_usage(const FilterOptions& options) {
@@ -147,8 +136,10 @@ int run(const FilterOptions& options, const std::vector<std::string>& arguments)
   if (input.is_image() && options.sigma_color == 0) settings.sigma_color = image_sigma_color;
   check_features(options, info);
   check_budget(input, settings, options.verbose || options.dry_run);
-  if (!options.output.empty()) check_target(options.output);
-  if (!options.aov.empty() && !is_folder(options.aov)) check_target(options.aov);
+  if (settings.crop) check_crop(*settings.crop, info.data_window);
+  check_outputs(planned_outputs(options, info, settings), {options.input});
+  check_in_place(info, options.output);
+  if (!options.quiet) tell_dropped(info);
   if (options.dry_run) return 0;
 
   read_options.slots = needed_layout(info, settings).slots;

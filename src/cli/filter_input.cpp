@@ -14,6 +14,11 @@ SampleFileInfo info_of(const std::string& path, const Image& header, const Sampl
   info.data_window = header.data_window;
   info.display_window = header.display_window;
   for (const std::string& slot : layout.slots) info.channels.push_back({slot, slot, PixelType::full_float});
+  for (const std::string& channel : header.channels)
+    if (header.channel_count() > 1 && !layout.find(channel))
+      info.channels.push_back({channel, "", PixelType::full_float});
+  info.value_bits = header.value_bits;
+  info.dropped_attributes = header.dropped;
   info.sample_count = header.data_window.pixel_count();
   info.min_samples = info.max_samples = 1;
   return info;

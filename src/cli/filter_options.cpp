@@ -4,9 +4,11 @@
 
 #include <cstdio>
 #include <map>
+#include <regex>
 
 #include "cli/environment.h"
 #include "cli/method_options.h"
+#include "cli/numbers.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
 #include "rpf/methods.h"
@@ -32,12 +34,9 @@ std::vector<int> box_widths(const std::string& text) {
   std::vector<int> widths;
   if (text == "none") return widths;
   for (const std::string& part : split(text)) {
-    char* end = nullptr;
-    const long width = std::strtol(part.c_str(), &end, 10);
-    if (part.empty() || *end != 0 || width < 1 || width > 255)
-      refuse("--boxes", text,
-             "odd box widths from 1 to 255 are expected, such as 55,35,17,7, or none for the plain mean");
-    widths.push_back(static_cast<int>(width));
+    const std::string refusal = refusal_of(part, ranges::box_width);
+    if (!refusal.empty()) refuse("--boxes", text, refusal + ", several with commas, or none for the plain mean");
+    widths.push_back(std::stoi(part));
   }
   return widths;
 }
@@ -84,41 +83,45 @@ void add_model_options(CLI::App& app, FilterOptions& o) {
   app.add_option("--boxes", o.boxes, "Box width of each pass in pixels, or none")
       ->type_name("LIST")
       ->default_str("55,35,17,7");
-  app.add_option("--samples-factor", o.samples_factor, "M = FACTOR * b^2 in place of the profile's")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--max-samples", o.settings.max_samples, "Upper limit of M")->check(CLI::PositiveNumber);
-  app.add_option("--neighbors-factor", o.neighbors_factor,
-                 "Draw no further once a neighborhood has FACTOR * b^2 samples; M is what is drawn at most")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--statistics-block", o.settings.statistics_block,
-                 "Pixels of a square of this width share what mutual information says")
+  const auto number = [&](const char* name, auto& value, const NumberRange& range, const char* text) {
+    return restrict_to(app.add_option(name, value, text), range);
+  };
+  number("--samples-factor", o.samples_factor, ranges::factor, "M = FACTOR * b^2 in place of the profile's");
+  number("--max-samples", o.settings.max_samples, ranges::count, "Upper limit of M");
+  number("--neighbors-factor", o.neighbors_factor, ranges::factor,
+         "Draw no further once a neighborhood has FACTOR * b^2 samples; M is what is drawn at most");
+  number("--statistics-block", o.settings.statistics_block, ranges::statistics_block,
+         "Pixels of a square of this width share what mutual information says")
       ->capture_default_str();
-  app.add_option("--statistics-samples", o.settings.statistics_samples,
-                 "Measure mutual information on so many neighbors at most")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--noise", o.settings.noise, "sigma_8^2: 0.02 for very noisy scenes, 0.002 otherwise")
+  number("--statistics-samples", o.settings.statistics_samples, ranges::count,
+         "Measure mutual information on so many neighbors at most");
+  number("--noise", o.settings.noise, ranges::noise, "sigma_8^2: 0.02 for very noisy scenes, 0.002 otherwise")
       ->capture_default_str();
-  app.add_option("--bins", o.settings.bins, "Histogram bins, odd")->capture_default_str();
+  number("--bins", o.settings.bins, ranges::bins, "Histogram bins, odd")->capture_default_str();
   add_channel_options(app, o);
   app.add_flag("--drop-uninformative", o.settings.drop_uninformative,
                "Leave out random parameters and features that carry no information");
-  app.add_option("--seed", o.settings.seed, "Seed of the neighborhood draws")->capture_default_str();
+  number("--seed", o.settings.seed, ranges::seed, "Seed of the neighborhood draws")->capture_default_str();
 }
 
 void add_tuning_options(CLI::App& app, FilterOptions& o) {
   const std::string group = "Choices (docs/deviations.md)";
   Settings& s = o.settings;
-  app.add_option("--alpha-factor", s.alpha_factor, "Factor in alpha (T 5.9)")->capture_default_str()->group(group);
-  app.add_option("--position-scale", s.position_scale, "Least tolerance of positions: 0.1 * scene diagonal / SCALE")
-      ->capture_default_str()
-      ->group(group);
-  app.add_option("--redraws", s.redraws, "Further attempts of a draw that left the image")
-      ->capture_default_str()
-      ->group(group);
+  const auto number = [&](const char* name, auto& value, const NumberRange& range, const char* text) {
+    restrict_to(app.add_option(name, value, text), range)->capture_default_str()->group(group);
+  };
+  number("--alpha-factor", s.alpha_factor, ranges::alpha_factor, "Factor in alpha (T 5.9)");
+  number("--position-scale", s.position_scale, ranges::position_scale,
+         "Least tolerance of positions: 0.1 * scene diagonal / SCALE");
+  number("--redraws", s.redraws, ranges::redraws, "Further attempts of a draw that left the image");
   app.add_flag("--reject-second-hit", s.reject_second_hit, "Features of the second hit take part in the rejection")
       ->group(group);
   app.add_flag("--bias-correction", s.bias_correction, "Subtract the bias of the mutual information")->group(group);
   app.add_flag("--clamp-negative", s.clamp_negative, "Negative radiance becomes 0")->group(group);
+  app.add_flag("--clamp-infinite", s.clamp_infinite,
+               "Infinite radiance of float channels becomes the largest float, as that of half channels always becomes "
+               "65504; else such a sample is left out")
+      ->group(group);
 }
 
 void add_step_options(CLI::App& app, FilterOptions& o) {
@@ -126,8 +129,10 @@ void add_step_options(CLI::App& app, FilterOptions& o) {
   app.add_flag("--spread-spikes", o.settings.spread_spikes,
                "After every pass, share what makes a pixel brighter than its neighbors with those around it")
       ->group(group);
-  app.add_option("--polish", o.settings.polish,
-                 "At the end, average pixels that differ by about this part of their color, such as 0.15; 0: none")
+  restrict_to(app.add_option("--polish", o.settings.polish,
+                             "At the end, average pixels that differ by about this part of their color, such as 0.15; "
+                             "0: none"),
+              ranges::polish)
       ->type_name("H")
       ->capture_default_str()
       ->group(group);
@@ -186,9 +191,8 @@ void add_machine_options(CLI::App& app, FilterOptions& o) {
   app.add_option("-d,--device", o.settings.device, "OpenCL device: index of `rpf devices` or a part of its name")
       ->envname("RPF_DEVICE")
       ->group(group);
-  app.add_option("-t,--threads", o.settings.threads, "Threads; all cores if not given")
-      ->check(CLI::PositiveNumber)
-      ->envname("RPF_NUM_THREADS")
+  restrict_to(app.add_option("-t,--threads", o.settings.threads, "Threads; all cores if not given"), ranges::threads,
+              "RPF_NUM_THREADS")
       ->group(group);
   add_memory_option(app, o.max_memory_mb)->group(group);
   app.add_option("--progress", o.progress, "auto, never, always")
@@ -199,9 +203,8 @@ void add_machine_options(CLI::App& app, FilterOptions& o) {
 }
 
 CLI::Option* add_memory_option(CLI::App& app, std::uint64_t& megabytes) {
-  return app.add_option("--max-memory", megabytes, "Memory limit in MB")
-      ->check(CLI::PositiveNumber)
-      ->envname("RPF_MAX_MEMORY_MB");
+  return restrict_to(app.add_option("--max-memory", megabytes, "Memory limit in MB"), ranges::megabytes,
+                     "RPF_MAX_MEMORY_MB");
 }
 
 void add_filter_options(CLI::App& app, FilterOptions& options) {
@@ -253,19 +256,22 @@ double time_budget_of(const FilterOptions& options) {
 }
 
 Window window_of(const std::string& option, const std::string& text) {
-  Window w;
-  int used = 0;
-  const bool parsed = std::sscanf(text.c_str(), "%dx%d%d%d%n", &w.width, &w.height, &w.x, &w.y, &used) == 4;
-  if (!parsed || used != static_cast<int>(text.size()) || w.width <= 0 || w.height <= 0)
-    refuse(option, text, "WIDTHxHEIGHT+X+Y is expected, such as 256x128+100+60");
-  return w;
+  // +-37 is what %+d after a plus makes of a negative position, as other programs print it.
+  static const std::regex pattern(R"((\d{1,9})x(\d{1,9})(\+|-|\+-)(\d{1,9})(\+|-|\+-)(\d{1,9}))");
+  std::smatch parts;
+  if (!std::regex_match(text, parts, pattern) || std::stoi(parts[1]) == 0 || std::stoi(parts[2]) == 0)
+    refuse(option, text, "WIDTHxHEIGHT+X+Y is expected, such as 256x128+100+60 or 8x6-37-12");
+  const auto place = [&](int sign) { return std::stoi(parts[sign + 1]) * (parts[sign] == "+" ? 1 : -1); };
+  return {place(3), place(5), std::stoi(parts[1]), std::stoi(parts[2])};
 }
 
 std::pair<int, int> size_of(const std::string& text) {
+  constexpr int longest_side = 1 << 20;
   int width = 0, height = 0, used = 0;
-  const bool parsed = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) == 2;
-  if (!parsed || used != static_cast<int>(text.size()))
-    refuse("--size", text, "WIDTHxHEIGHT is expected, such as 480x270");
+  const bool parsed = std::sscanf(text.c_str(), "%7dx%7d%n", &width, &height, &used) == 2;
+  if (!parsed || width < 1 || height < 1 || width > longest_side || height > longest_side ||
+      used != static_cast<int>(text.size()))
+    refuse("--size", text, fmt::format("WIDTHxHEIGHT from 1 to {} pixels is expected, such as 480x270", longest_side));
   return {width, height};
 }
 
@@ -282,6 +288,7 @@ Settings settings_of(const FilterOptions& o) {
   s.filter_features = !o.aov.empty();
   if (s.threads == 0) s.threads = default_threads();
   s.max_memory = memory_limit(o.max_memory_mb);
+  validate(s);  // before a file is read
   return s;
 }
 

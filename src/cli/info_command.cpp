@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -23,12 +24,10 @@ std::string type_name(PixelType type) {
   return "?";
 }
 
-std::string window_text(const Window& w) { return fmt::format("{}x{}{:+}{:+}", w.width, w.height, w.x, w.y); }
-
 void print_file(const SampleFileInfo& info) {
   const auto pixels = static_cast<double>(info.data_window.pixel_count());
-  print("{}\n  data window {}, display window {}, compression {}\n", info.path, window_text(info.data_window),
-        window_text(info.display_window), info.compression);
+  print("{}\n  data window {}, display window {}, compression {}\n", info.path, text_of(info.data_window),
+        text_of(info.display_window), info.compression);
   print("  {} samples: {} to {} a pixel, {:.2f} on average, {} empty pixels\n", info.sample_count, info.min_samples,
         info.max_samples, static_cast<double>(info.sample_count) / pixels, info.empty_pixels);
 }
@@ -47,6 +46,14 @@ void print_channels(const SampleFileInfo& info, const std::vector<ChannelSurvey>
     print("  {:<20} {:<20} {:<6} {:>12.6g} {:>12.6g}  {}\n", channel.slot, channel.name, type_name(channel.type),
           found->minimum, found->maximum, remarks);
   }
+}
+
+/// What contradicts the convention, and what no result will hold.
+void print_remarks(const SampleFileInfo& info, const SampleBuffer& samples) {
+  for (const InputNote& note : check_conventions(samples))
+    print("  note: {}: {} (first at pixel {},{})\n", note.what, note.count, note.x, note.y);
+  if (!info.dropped_attributes.empty())
+    print("  attributes of types that are not read: {}\n", fmt::format("{}", fmt::join(info.dropped_attributes, ", ")));
 }
 
 void print_memory(const SampleFileInfo& info) {
@@ -79,6 +86,7 @@ Command add_info_command(CLI::App& app) {
     const SampleBuffer samples = read_samples(options->file, read_options);
     print_file(info);
     print_channels(info, survey(samples));
+    print_remarks(info, samples);
     print_memory(info);
     return 0;
   };

@@ -47,7 +47,8 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : static_cast<int>(ErrorKind::usage);
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    throw;
   }
   for (const auto& [name, command] : subcommands)
     if (app.got_subcommand(name)) return command();
@@ -75,6 +76,8 @@ int main(int argc, char** argv) {
     return code;
   } catch (const Error& e) {
     return cli::report(e.what(), e.kind());
+  } catch (const CLI::ParseError& e) {
+    return cli::report((std::string(e.what()) + "; rpf --help lists the options").c_str(), ErrorKind::usage);
   } catch (const std::bad_alloc&) {
     return cli::report("out of memory; lower --max-memory or --threads, or leave channels out", ErrorKind::memory);
   } catch (const std::exception& e) {

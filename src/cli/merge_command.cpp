@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/dropped.h"
 #include "cli/print.h"
 #include "cli/sample_options.h"
 #include "rpf/error.h"
+#include "rpf/outputs.h"
 
 namespace rpf::cli {
 namespace {
@@ -39,7 +41,11 @@ int run(const SampleFileOptions& options) {
   std::vector<SampleFileInfo> files;
   for (const std::string& input : options.inputs) files.push_back(inspect_samples(input, read_options));
   check_budget(files, read_options.max_memory);
-  check_sample_target(options.output);
+  check_outputs({{options.output, OutputKind::samples, {}, {}, true}}, options.inputs);
+  for (const SampleFileInfo& file : files) {
+    check_in_place(file, options.output);
+    tell_dropped(file);
+  }
   std::vector<SamplePart> parts;
   for (const std::string& input : options.inputs) parts.push_back({input, read_samples(input, read_options)});
   return write_and_tell(options.output, merge_samples(std::move(parts)), half_slots_of(files));

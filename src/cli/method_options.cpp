@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "cli/numbers.h"
 #include "rpf/error.h"
 #include "rpf/methods.h"
 
@@ -67,12 +68,13 @@ void add_method_options(CLI::App& app, FilterOptions& o) {
          "bilateral also filter any image")
       ->check(CLI::IsMember(method_names()))
       ->default_str("learned; rpf where an option asks for it");
-  app.add_option("--sigma-color", o.sigma_color,
-                 "Standard deviation of the color, in linear radiance as the file has it")
-      ->check(CLI::PositiveNumber)
+  restrict_to(app.add_option("--sigma-color", o.sigma_color,
+                             "Standard deviation of the color, in linear radiance as the file has it"),
+              ranges::sigma_color)
       ->default_str(fmt::format("{:g}, of an image {:g}", Settings{}.sigma_color, image_sigma_color));
-  app.add_option("--sigma-feature", o.settings.sigma_feature,
-                 "Standard deviation of a feature, 1 is that of its group over the frame")
+  restrict_to(app.add_option("--sigma-feature", o.settings.sigma_feature,
+                             "Standard deviation of a feature, 1 is that of its group over the frame"),
+              ranges::sigma_feature)
       ->capture_default_str();
   app.parse_complete_callback([&app, &o] { check_given_options(app, method_settings(o.method).method); });
 }

@@ -4,6 +4,7 @@
 
 #include "cli/environment.h"
 #include "cli/filter_options.h"
+#include "cli/numbers.h"
 #include "cli/print.h"
 #include "cli/signals.h"
 

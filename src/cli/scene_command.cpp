@@ -5,11 +5,13 @@
 #include "cli/commands.h"
 #include "cli/environment.h"
 #include "cli/filter_options.h"
+#include "cli/numbers.h"
 #include "cli/print.h"
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
 #include "rpf/error.h"
 #include "rpf/io.h"
+#include "rpf/outputs.h"
 #include "rpf/scene.h"
 
 namespace rpf::cli {
@@ -49,7 +51,12 @@ void check_usage(const Options& o) {
   if (o.name.empty()) throw Error(ErrorKind::usage, "scene: no name; rpf scene --list says which scenes there are");
   if (o.output.empty())
     throw Error(ErrorKind::usage, "scene: no output; name the file to write with -o, as in -o dof.samples.exr");
-  check_sample_target(o.output);
+}
+
+PlannedOutput planned_output(const Options& o) {
+  PlannedOutput output{o.output, o.reference > 0 ? OutputKind::image : OutputKind::samples};
+  std::tie(output.window.width, output.window.height) = size_of(o.size);
+  return output;
 }
 
 std::string progress_mode(const Options& o) { return o.quiet ? "never" : o.progress; }
@@ -92,6 +99,7 @@ int run(const Options& o) {
     return 0;
   }
   check_usage(o);
+  check_outputs({planned_output(o)}, o.density.empty() ? std::vector<std::string>{} : std::vector{o.density});
   const SceneOptions scene = scene_options(o);
   if (o.reference > 0)
     write_reference_image(o, scene);
@@ -105,13 +113,14 @@ void add_options(CLI::App& command, Options& o) {
   command.add_flag("--list", o.list, "Say which scenes there are and what for");
   command.add_option("-o,--output", o.output, "Sample file to write, or with --reference the image")
       ->type_name("FILE.exr");
-  command.add_option("--spp", o.scene.samples, "Samples a pixel")->capture_default_str();
-  CLI::Option* reference =
-      command.add_option("--reference", o.reference, "Write the mean of N samples a pixel as an image instead")
-          ->type_name("N")
-          ->check(CLI::Range(2, 1048576));
+  restrict_to(command.add_option("--spp", o.scene.samples, "Samples a pixel"), ranges::samples)->capture_default_str();
+  CLI::Option* reference = restrict_to(command.add_option("--reference", o.reference,
+                                                          "Write the mean of N samples a pixel as an image instead"),
+                                       ranges::reference_samples)
+                               ->type_name("N");
   command.add_option("--size", o.size, "Pixels")->type_name("WxH")->capture_default_str();
-  command.add_option("--seed", o.scene.seed, "Seed of the random numbers")->capture_default_str();
+  restrict_to(command.add_option("--seed", o.scene.seed, "Seed of the random numbers"), ranges::seed)
+      ->capture_default_str();
   command.add_option("--sampler", o.sampler, "random, stratified, sobol")
       ->check(CLI::IsMember({"random", "stratified", "sobol"}))
       ->capture_default_str();
@@ -125,16 +134,16 @@ void add_options(CLI::App& command, Options& o) {
 }
 
 void add_world_options(CLI::App& command, Options& o) {
-  command.add_option("--world-scale", o.scene.world_scale, "Positions written are scaled by this")
+  restrict_to(command.add_option("--world-scale", o.scene.world_scale, "Positions written are scaled by this"),
+              ranges::world_scale)
       ->capture_default_str();
-  command.add_option("--world-offset", o.world_offset, "and moved by this")
+  restrict_to(command.add_option("--world-offset", o.world_offset, "and moved by this"), ranges::world_offset)
       ->type_name("X,Y,Z")
       ->delimiter(',')
       ->expected(3)
       ->default_str("0,0,0");
-  command.add_option("-t,--threads", o.scene.threads, "Threads; all cores if not given")
-      ->check(CLI::PositiveNumber)
-      ->envname("RPF_NUM_THREADS");
+  restrict_to(command.add_option("-t,--threads", o.scene.threads, "Threads; all cores if not given"), ranges::threads,
+              "RPF_NUM_THREADS");
   add_memory_option(command, o.max_memory_mb);
   command.add_option("--progress", o.progress, "auto, never, always")
       ->check(CLI::IsMember({"auto", "never", "always"}))

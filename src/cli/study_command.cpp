@@ -7,6 +7,7 @@
 #include "cli/bench.h"
 #include "cli/commands.h"
 #include "cli/filter_options.h"
+#include "cli/numbers.h"
 #include "cli/print.h"
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
@@ -115,9 +116,8 @@ Command add_study_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("-d,--device", options->device, "OpenCL device: index of `rpf devices` or a part of its name")
       ->envname("RPF_DEVICE");
-  command->add_option("-t,--threads", options->threads, "Threads; all cores if not given")
-      ->check(CLI::PositiveNumber)
-      ->envname("RPF_NUM_THREADS");
+  restrict_to(command->add_option("-t,--threads", options->threads, "Threads; all cores if not given"), ranges::threads,
+              "RPF_NUM_THREADS");
   return [options] { return run(*options); };
 }
 

@@ -130,8 +130,7 @@ void add_windows(CaseList& list) {
     list.add(fmt::format("window/{},{}", place[0], place[1]), c);
   }
   for (const Window& crop : {Window{0, 0, 1, 1}, Window{24, 17, 1, 1}, Window{3, 5, 11, 7}})
-    list.add(fmt::format("crop/{}x{}+{}+{}", crop.width, crop.height, crop.x, crop.y),
-             [&](Settings& s) { s.crop = crop; });
+    list.add("crop/" + text_of(crop), [&](Settings& s) { s.crop = crop; });
 }
 
 /// Blocks that share statistics, where they are cut: by empty pixels, bands, and a crop.

@@ -7,7 +7,6 @@
 #include "explain/layers.h"
 #include "explain/traced_pixel.h"
 #include "frame/selection.h"
-#include "plan/validate.h"
 #include "rpf/error.h"
 #include "run/backends.h"
 #include "run/driver.h"
@@ -37,8 +36,8 @@ std::uint32_t pixel_number(const PixelPosition& pixel, const SampleBuffer& sampl
   const Window& w = samples.data_window;
   const std::int64_t x = std::int64_t{pixel.x} - w.x, y = std::int64_t{pixel.y} - w.y;
   if (x < 0 || y < 0 || x >= w.width || y >= w.height)
-    throw Error(ErrorKind::usage, fmt::format("pixel {},{} is not inside the data window {}x{}{:+}{:+}", pixel.x,
-                                              pixel.y, w.width, w.height, w.x, w.y));
+    throw Error(ErrorKind::usage,
+                fmt::format("--pixel {},{} is not inside the data window {}", pixel.x, pixel.y, text_of(w)));
   const auto number = static_cast<std::uint32_t>(y * w.width + x);
   if (samples.first_sample[number] == samples.first_sample[number + 1])
     throw Error(ErrorKind::input, fmt::format("pixel {},{} has no samples; choose another", pixel.x, pixel.y));

@@ -1,11 +1,16 @@
 #include "frame/clean.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "frame/lost_pixels.h"
+#include "frame/tally.h"
+#include "frame/variables.h"
 
 namespace rpf {
 namespace {
@@ -13,6 +18,7 @@ namespace {
 /// Larger feature values count as missing: their squares would not survive a sum, and renderers write such values for
 /// "no hit". Nor would sums of larger weights or alphas.
 constexpr float largest_value = 1e15F;
+constexpr float largest_half = 65504;
 
 std::vector<std::size_t> all_of(const SampleLayout& layout, std::initializer_list<const char*> slots) {
   std::vector<std::size_t> columns;
@@ -21,20 +27,21 @@ std::vector<std::size_t> all_of(const SampleLayout& layout, std::initializer_lis
   return columns.size() == slots.size() ? columns : std::vector<std::size_t>{};
 }
 
-/// How often something was found, and the pixel where it was found first.
-struct Tally {
-  std::uint64_t count = 0;
-  std::size_t first_pixel = 0;
-
-  void add(std::size_t pixel) {
-    if (count++ == 0) first_pixel = pixel;
-  }
-};
-
 struct Findings {
-  Tally not_finite, no_weight, negative, alpha, empty;
-  std::vector<Tally> missing;  ///< [column]
+  Tally infinite, not_finite, no_weight, negative, alpha, empty, lost;
+  Tally missing;                      ///< samples
+  std::vector<char> missing_columns;  ///< [column] of these
 };
+
+/// Overflowed light is the largest that its type holds, not none.
+void take_infinite(float* record, const Columns& columns, Findings& findings, std::size_t pixel) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    float& value = record[columns.color[c]];
+    if (columns.largest[c] == 0 || !std::isinf(value) || value < 0) continue;
+    findings.infinite.add(pixel);
+    value = columns.largest[c];
+  }
+}
 
 bool is_usable(const float* record, const Columns& columns, Findings& findings, std::size_t pixel) {
   const auto is_finite = [&](std::size_t c) { return std::isfinite(record[c]); };
@@ -47,6 +54,38 @@ bool is_usable(const float* record, const Columns& columns, Findings& findings, 
   return false;
 }
 
+bool is_missing(float value) { return !(std::fabs(value) <= largest_value); }
+
+/// A ray that hit nothing has no features, which is no fault: a sky.
+bool is_miss(const float* record, const Columns& columns) {
+  if (columns.hit) return record[*columns.hit] == 0;
+  return std::all_of(columns.first_hit.begin(), columns.first_hit.end(),
+                     [&](std::size_t c) { return is_missing(record[c]); });
+}
+
+/// Marks what is missing, and counts the sample where it should not be: at a hit, or of what every sample has.
+void mark_missing(float* record, const Columns& columns, Findings& findings, std::size_t pixel) {
+  const bool miss = is_miss(record, columns);
+  const auto has_any = [&](const std::vector<std::size_t>& hit) {
+    return std::any_of(hit.begin(), hit.end(), [&](std::size_t c) { return !is_missing(record[c]); });
+  };
+  const bool second = !miss && has_any(columns.second_hit);
+  bool any = false;
+  const auto mark = [&](const auto& of, bool counts) {
+    for (const std::size_t c : of) {
+      if (!is_missing(record[c])) continue;
+      if (counts) findings.missing_columns[c] = 1;
+      any = any || counts;
+      record[c] = missing;
+    }
+  };
+  mark(columns.film, true);
+  mark(columns.random, true);
+  mark(columns.first_hit, !miss);
+  mark(columns.second_hit, second);
+  if (any) findings.missing.add(pixel);
+}
+
 void clean_record(float* record, const Columns& columns, bool clamp_negative, Findings& findings, std::size_t pixel) {
   for (const std::size_t c : columns.color) {
     if (!(record[c] < 0)) continue;
@@ -57,71 +96,112 @@ void clean_record(float* record, const Columns& columns, bool clamp_negative, Fi
     findings.alpha.add(pixel);
     record[*columns.alpha] = 0;
   }
-  const auto mark_missing = [&](std::size_t c) {
-    findings.missing[c].add(pixel);
-    record[c] = missing;
-  };
-  for (const std::size_t c : columns.film)
-    if (!(std::fabs(record[c]) <= largest_value)) mark_missing(c);
-  for (const std::size_t c : columns.variables)
-    if (!(std::fabs(record[c]) <= largest_value)) mark_missing(c);
+  mark_missing(record, columns, findings, pixel);
+}
+
+std::string list_of(const std::vector<char>& columns, const SampleLayout& layout) {
+  constexpr std::size_t listed = 12;
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (columns[c] != 0) names.push_back(layout.slots[c]);
+  const std::string rest = names.size() > listed ? fmt::format(" and {} more", names.size() - listed) : "";
+  names.resize(std::min(names.size(), listed));
+  return fmt::format("{}{}", fmt::join(names, " "), rest);
 }
 
 std::vector<InputNote> notes_of(const Findings& findings, const SampleBuffer& samples, bool clamp_negative) {
   std::vector<InputNote> notes;
-  const auto width = static_cast<std::size_t>(samples.data_window.width);
-  const auto tell = [&](const Tally& tally, const std::string& what) {
-    if (tally.count == 0) return;
-    notes.push_back({what, tally.count, samples.data_window.x + static_cast<int>(tally.first_pixel % width),
-                     samples.data_window.y + static_cast<int>(tally.first_pixel / width)});
-  };
+  const auto tell = [&](const Tally& tally, const std::string& what) { tally.tell(what, samples.data_window, notes); };
+  tell(findings.infinite, "infinite radiance values, taken for the largest of their type");
   tell(findings.not_finite, "samples left out: R, G or B not finite");
   tell(findings.no_weight, "samples left out: weight not a number from 0 to 1e15");
+  tell(findings.lost, "pixels that lost all their samples, filled from their neighbors");
   tell(findings.empty, "pixels without samples, black");
   tell(findings.negative, clamp_negative ? "negative radiance values, set to 0" : "negative radiance values, kept");
   tell(findings.alpha, "values of alpha not finite or beyond 1e15, set to 0");
-  for (std::size_t c = 0; c < findings.missing.size(); ++c)
-    tell(findings.missing[c], fmt::format("missing values of {}", samples.layout.slots[c]));
+  tell(findings.missing, "samples with missing values of " + list_of(findings.missing_columns, samples.layout));
   return notes;
+}
+
+/// What a sample without a usable color or weight keeps: it waits for the color of its pixel's neighbors.
+void clean_lost_record(float* record, const Columns& columns, bool clamp_negative, Findings& findings,
+                       std::size_t pixel) {
+  for (const std::size_t c : columns.color) record[c] = 0;
+  if (columns.weight) record[*columns.weight] = 1;
+  clean_record(record, columns, clamp_negative, findings, pixel);
+}
+
+/// Moves the samples of a pixel that can be used to `kept`, all of them where none can. Returns how many.
+std::uint32_t keep_samples(SampleBuffer& samples, std::uint32_t begin, std::uint32_t end, std::uint32_t kept,
+                           const Columns& columns, bool clamp_negative, Findings& findings, std::size_t pixel) {
+  const std::size_t stride = samples.layout.size();
+  std::uint32_t count = 0;
+  for (std::uint32_t sample = begin; sample < end; ++sample) {
+    float* record = samples.record(sample);
+    take_infinite(record, columns, findings, pixel);
+    if (!is_usable(record, columns, findings, pixel)) continue;
+    clean_record(record, columns, clamp_negative, findings, pixel);
+    if (sample != kept + count) std::copy(record, record + stride, samples.record(kept + count));
+    ++count;
+  }
+  if (count > 0 || begin == end) return count;
+  for (std::uint32_t sample = begin; sample < end; ++sample) {
+    float* record = samples.record(sample);
+    clean_lost_record(record, columns, clamp_negative, findings, pixel);
+    if (sample != kept + count) std::copy(record, record + stride, samples.record(kept + count));
+    ++count;
+  }
+  findings.lost.add(pixel);
+  return count;
 }
 
 }  // namespace
 
-Columns find_columns(const SampleLayout& layout) {
+Columns find_columns(const SampleBuffer& samples, bool clamp_infinite) {
+  const SampleLayout& layout = samples.layout;
   Columns c;
   const auto color = all_of(layout, {"R", "G", "B"});
   const auto film = all_of(layout, {"film.X", "film.Y"});
   std::copy(color.begin(), color.end(), c.color);
   std::copy(film.begin(), film.end(), c.film);
+  for (std::size_t i = 0; i < 3; ++i)
+    c.largest[i] = samples.is_half(layout.slots[c.color[i]]) ? largest_half
+                   : clamp_infinite                          ? std::numeric_limits<float>::max()
+                                                             : 0;
   c.alpha = layout.find("A");
   c.weight = layout.find("weight");
   c.hit = layout.find("feature.hit");
   c.normal = all_of(layout, {"feature.N.X", "feature.N.Y", "feature.N.Z"});
-  for (std::size_t i = 0; i < layout.size(); ++i)
-    if (is_feature_slot(layout.slots[i]) && group_of(layout.slots[i]) == "P") c.position.push_back(i);
-  for (std::size_t i = 0; i < layout.size(); ++i)
-    if (is_random_slot(layout.slots[i]) || is_feature_slot(layout.slots[i])) c.variables.push_back(i);
+  for (std::size_t i = 0; i < layout.size(); ++i) {
+    if (is_random_slot(layout.slots[i])) c.random.push_back(i);
+    if (!is_feature_slot(layout.slots[i])) continue;
+    const std::string group = group_of(layout.slots[i]);
+    if (group == "P") c.position.push_back(i);
+    (is_second_hit(group) ? c.second_hit : c.first_hit).push_back(i);
+  }
   return c;
 }
 
 std::vector<InputNote> clean(SampleBuffer& samples, const Columns& columns, bool clamp_negative) {
-  const std::size_t stride = samples.layout.size();
   Findings findings;
-  findings.missing.resize(stride);
+  findings.missing_columns.resize(samples.layout.size());
+  std::vector<std::size_t> lost;
   std::uint32_t kept = 0;
   for (std::size_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel) {
-    const std::uint32_t begin = std::exchange(samples.first_sample[pixel], kept);
-    for (std::uint32_t sample = begin; sample < samples.first_sample[pixel + 1]; ++sample) {
-      float* record = samples.record(sample);
-      if (!is_usable(record, columns, findings, pixel)) continue;
-      clean_record(record, columns, clamp_negative, findings, pixel);
-      if (sample != kept) std::copy(record, record + stride, samples.record(kept));
-      ++kept;
-    }
-    if (samples.first_sample[pixel] == kept) findings.empty.add(pixel);
+    const std::uint32_t begin = std::exchange(samples.first_sample[pixel], kept), end = samples.first_sample[pixel + 1];
+    const std::uint64_t lost_before = findings.lost.count;
+    kept += keep_samples(samples, begin, end, kept, columns, clamp_negative, findings, pixel);
+    if (begin == end) findings.empty.add(pixel);
+    if (findings.lost.count > lost_before) lost.push_back(pixel);
   }
   samples.first_sample.back() = kept;
-  samples.values.resize(kept * stride);
+  if (!lost.empty() && !fill_lost_pixels(samples, columns, lost)) {  // of the whole frame
+    std::fill(samples.first_sample.begin(), samples.first_sample.end(), 0);
+    kept = 0;
+    findings.empty = findings.lost;
+    findings.lost = {};
+  }
+  samples.values.resize(kept * samples.layout.size());
   return notes_of(findings, samples, clamp_negative);
 }
 

@@ -17,15 +17,21 @@ constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 struct Columns {
   std::size_t color[3] = {0, 0, 0}, film[2] = {0, 0};
   std::optional<std::size_t> alpha, weight, hit;
-  std::vector<std::size_t> normal;     ///< of the first hit: 3 columns, or none
-  std::vector<std::size_t> position;   ///< of the first hit: the components there are
-  std::vector<std::size_t> variables;  ///< random parameters and features: all whose missing values are marked
+  std::vector<std::size_t> normal;                 ///< of the first hit: 3 columns, or none
+  std::vector<std::size_t> position;               ///< of the first hit: the components there are
+  std::vector<std::size_t> random;                 ///< random parameters
+  std::vector<std::size_t> first_hit, second_hit;  ///< the features of each
+  /// Of R, G, B: what an infinite value stands for; 0 where nothing does.
+  float largest[3] = {0, 0, 0};
 };
 
-Columns find_columns(const SampleLayout& layout);
+/// `clamp_infinite`: as in Settings.
+Columns find_columns(const SampleBuffer& samples, bool clamp_infinite);
 
-/// Leaves out samples whose color is not finite or whose weight is none, and marks unusable features, random parameters
-/// and film positions as missing (NaN). The buffer shrinks in place. Says what was found, and where first.
+/// Takes infinite radiance for the largest value of its type where Columns::largest says so, leaves out samples whose
+/// color is not finite or whose weight is none, and marks unusable features, random parameters and film positions as
+/// missing (NaN). A pixel that loses all its samples keeps them, in the color of its neighbors and with weight 1. The
+/// buffer shrinks in place. Says what was found, and where first.
 std::vector<InputNote> clean(SampleBuffer& samples, const Columns& columns, bool clamp_negative);
 
 }  // namespace rpf

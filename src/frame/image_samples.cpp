@@ -39,6 +39,11 @@ SampleBuffer samples_of_image(const Image& image) {
   samples.display_window = image.display_window;
   samples.metadata = image.metadata;
   samples.layout = layout_of_image(image);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::string& channel = image.channels[columns[c]];
+    if (std::count(image.half_channels.begin(), image.half_channels.end(), channel) > 0)
+      samples.half_slots.emplace_back(1, "RGB"[c]);
+  }
   samples.first_sample = {0};
   samples.values.reserve(image.data_window.pixel_count() * samples.layout.size());
   for (std::uint32_t pixel = 0; pixel < image.data_window.pixel_count(); ++pixel) {

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -34,10 +35,8 @@ void check_slots(const SamplePart& whole, const SamplePart& lacking) {
 void check_window(const SamplePart& first, const SamplePart& other) {
   const Window &a = first.samples.data_window, &b = other.samples.data_window;
   if (!(a == b))
-    reject(
-        fmt::format("\"{}\" has the data window {}x{}{:+}{:+}, but \"{}\" has {}x{}{:+}{:+}; renderings of one frame "
-                    "are expected",
-                    other.name, b.width, b.height, b.x, b.y, first.name, a.width, a.height, a.x, a.y));
+    reject(fmt::format("\"{}\" has the data window {}, but \"{}\" has {}; renderings of one frame are expected",
+                       other.name, text_of(b), first.name, text_of(a)));
 }
 
 std::string seeds_of(const SampleBuffer& samples) {
@@ -46,6 +45,9 @@ std::string seeds_of(const SampleBuffer& samples) {
     if (found == samples.metadata.end()) continue;
     if (const auto* text = std::get_if<std::string>(&found->second)) return *text;
     if (const auto* number = std::get_if<std::int32_t>(&found->second)) return std::to_string(*number);
+    // Python writes numbers as floats.
+    const auto* real = std::get_if<float>(&found->second);
+    if (real != nullptr && *real == std::trunc(*real)) return fmt::format("{:.0f}", *real);
   }
   return "?";
 }

@@ -13,6 +13,7 @@
 #include "frame/prepare.h"
 #include "frame/selection.h"
 #include "rpf/error.h"
+#include "rpf/outputs.h"
 
 namespace rpf {
 namespace {
@@ -195,16 +196,20 @@ std::vector<float> repack(SampleBuffer& samples, const std::vector<Source>& sour
 /// The crop in frame coordinates; the whole frame without one.
 Window wanted_region(const Window& data_window, const std::optional<Window>& crop) {
   const Window c = crop.value_or(data_window);
-  const Window region{c.x - data_window.x, c.y - data_window.y, c.width, c.height};
-  const bool inside = region.x >= 0 && region.y >= 0 && c.width > 0 && c.height > 0 &&
-                      region.x <= data_window.width - c.width && region.y <= data_window.height - c.height;
-  if (inside) return region;
-  throw Error(ErrorKind::usage,
-              fmt::format("crop {}x{}+{}+{} is not inside the data window {}x{}+{}+{}", c.width, c.height, c.x, c.y,
-                          data_window.width, data_window.height, data_window.x, data_window.y));
+  check_crop(c, data_window);
+  return {c.x - data_window.x, c.y - data_window.y, c.width, c.height};
 }
 
 }  // namespace
+
+void check_crop(const Window& crop, const Window& data_window) {
+  const std::int64_t x = std::int64_t{crop.x} - data_window.x, y = std::int64_t{crop.y} - data_window.y;
+  const bool inside = x >= 0 && y >= 0 && crop.width > 0 && crop.height > 0 && x + crop.width <= data_window.width &&
+                      y + crop.height <= data_window.height;
+  if (!inside)
+    throw Error(ErrorKind::usage, fmt::format("--crop {} is not inside the data window {}; choose a part of it",
+                                              text_of(crop), text_of(data_window)));
+}
 
 std::uint32_t most_samples(const std::vector<std::uint32_t>& first_sample) {
   std::uint32_t most = 0;
@@ -214,11 +219,12 @@ std::uint32_t most_samples(const std::vector<std::uint32_t>& first_sample) {
 }
 
 PreparedFrame prepare(SampleBuffer samples, const Settings& settings) {
-  const Columns columns = find_columns(samples.layout);
+  const Columns columns = find_columns(samples, settings.clamp_infinite);
   const Selection selection = select_channels(samples.layout, settings);
   PreparedFrame result;
   result.facts.crop = wanted_region(samples.data_window, settings.crop);
-  result.notes = clean(samples, columns, settings.clamp_negative);
+  result.notes = check_conventions(samples);
+  for (InputNote& note : clean(samples, columns, settings.clamp_negative)) result.notes.push_back(std::move(note));
   if (settings.method != Method::rpf) center_missing_positions(samples, columns);
   result.facts.radiance_scale = radiance_scale(samples, columns);
   result.facts.position_diagonal = position_diagonal(samples, columns);

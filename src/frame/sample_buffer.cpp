@@ -57,6 +57,14 @@ std::string group_of(const std::string& slot) {
   return slot.substr(begin + 1, slot.find('.', begin + 1) - begin - 1);
 }
 
+std::string text_of(const Window& window) {
+  return fmt::format("{}x{}{:+}{:+}", window.width, window.height, window.x, window.y);
+}
+
+bool SampleBuffer::is_half(const std::string& slot) const {
+  return std::find(half_slots.begin(), half_slots.end(), slot) != half_slots.end();
+}
+
 void SampleBuffer::validate() const {
   validate_layout(layout);
   if (data_window.width <= 0 || data_window.height <= 0) reject("the data window is empty");

@@ -23,6 +23,30 @@ using namespace rpf::io;
   throw Error(ErrorKind::input, fmt::format("\"{}\" {}", path, what));
 }
 
+std::string part_name(const oiio::ImageSpec& spec) {
+  const std::string name = spec.get_string_attribute("oiio:subimagename");
+  return name.empty() ? std::string(spec.get_string_attribute("name")) : name;
+}
+
+// Parts of an EXR file, pages of a TIFF, frames of a GIF: all but one would be lost.
+void check_parts(const std::string& path, oiio::ImageInput& input) {
+  if (input.spec().depth > 1) reject(path, "is a volume, but an image is needed; write a slice of it as a file");
+  if (!input.seek_subimage(1, 0)) {
+    (void)input.geterror();  // there is no second one, which is well
+    if (!input.seek_subimage(0, 0)) reject(path, "cannot be read as an image; copy it again");
+    return;
+  }
+  const int count = input.spec().get_int_attribute("oiio:subimages");
+  const std::string second = part_name(input.spec());
+  input.seek_subimage(0, 0);
+  const std::string first = part_name(input.spec());
+  const std::string names = first.empty() || second.empty() ? "" : fmt::format(" (\"{}\", \"{}\", ...)", first, second);
+  reject(path,
+         fmt::format("holds {} images{}, but one is needed, or the others would be lost; write each as a file, with "
+                     "exrmultipart -separate or oiiotool",
+                     count > 1 ? std::to_string(count) : "several", printable(names)));
+}
+
 std::unique_ptr<oiio::ImageInput> open_image(const std::string& path) {
   const FileBytes checked(path);  // for its clear errors: missing, folder, no permission
   oiio::ImageSpec config;
@@ -32,6 +56,7 @@ std::unique_ptr<oiio::ImageInput> open_image(const std::string& path) {
   if (!input)
     reject(path, fmt::format("cannot be read as an image ({}); use .exr, .tif, .hdr, .png or another image format",
                              first_line(oiio::geterror())));
+  check_parts(path, *input);
   if (input->spec().deep) reject(path, "is a deep file, but a flat image is needed; filter the samples first");
   return input;
 }
@@ -73,7 +98,8 @@ void multiply_by_alpha(const oiio::ImageSpec& spec, Image& image) {
 }
 
 // Attributes that describe the file ("tiff:RowsPerStrip") are left out.
-void take_attribute(const oiio::ParamValue& attribute, const std::string& format, Metadata& metadata) {
+void take_attribute(const oiio::ParamValue& attribute, const std::string& format, Image& image) {
+  Metadata& metadata = image.metadata;
   const std::string name = exr_name(attribute.name().string());
   const oiio::TypeDesc type = attribute.type();
   const auto count = type.numelements() * type.aggregate;
@@ -82,6 +108,8 @@ void take_attribute(const oiio::ParamValue& attribute, const std::string& format
   if (is_structural(name)) return;
   if (type == oiio::TypeString) metadata[name] = attribute.get_string();
   if (type == oiio::TypeInt) metadata[name] = static_cast<std::int32_t>(attribute.get_int());
+  if (type != oiio::TypeString && type != oiio::TypeInt && type.basetype != oiio::TypeDesc::FLOAT)
+    image.dropped.push_back(printable(fmt::format("{} ({})", name, type.c_str())));
   if (type.basetype != oiio::TypeDesc::FLOAT) return;
   const auto* first = static_cast<const float*>(attribute.data());
   if (count == 1)
@@ -90,12 +118,23 @@ void take_attribute(const oiio::ParamValue& attribute, const std::string& format
     metadata[name] = std::vector<float>(first, first + count);
 }
 
+// The eye that R, G and B are of: the first is the default one, whose channels stand without its name.
+std::string view_of(const oiio::ImageSpec& spec) {
+  const oiio::ParamValue* views = spec.find_attribute("multiView");
+  if (views == nullptr) return spec.get_string_attribute("view");
+  return views->type().basetype == oiio::TypeDesc::STRING ? views->get_string_indexed(0) : "";
+}
+
 Image describe(const oiio::ImageSpec& spec, const std::string& format) {
   Image image;
   image.data_window = {spec.x, spec.y, spec.width, spec.height};
   image.display_window = {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
   image.channels = spec.channelnames;
-  for (const oiio::ParamValue& attribute : spec.extra_attribs) take_attribute(attribute, format, image.metadata);
+  for (const oiio::ParamValue& attribute : spec.extra_attribs) take_attribute(attribute, format, image);
+  for (int c = 0; c < spec.nchannels; ++c)
+    if (spec.channelformat(c) == oiio::TypeHalf) image.half_channels.push_back(spec.channelnames[c]);
+  image.view = view_of(spec);
+  image.value_bits = static_cast<int>(spec.format.basesize()) * 8;
   return image;
 }
 

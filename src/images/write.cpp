@@ -111,7 +111,7 @@ void check_written(const std::string& path, const std::string& temporary, const 
 
 void write(const std::string& path, const io::AtomicFile& file, const Image& image) {
   const ImageFormat& format = format_of(path);
-  const std::vector<std::size_t> columns = columns_of(path, format, image);
+  const std::vector<std::size_t> columns = columns_of(path, format, image.channels);
   const oiio::ImageSpec spec = spec_of(format, image, columns);
   CheckedWriter writer(file.descriptor(), path);
   if (format.encoding == Encoding::srgb_bytes)

@@ -3,14 +3,15 @@
 
 #include <string>
 
+#include "io/output_place.h"
+
 namespace rpf::io {
 
 class AtomicFile {
  public:
-  /// Makes the temporary file ".rpf-<pid>-<n><extension>" in the target's folder. A symbolic link is followed, so the
-  /// link stays. Throws Error(output) where the folder is missing or cannot be written to, or where the target exists
-  /// and is no regular file: renaming onto /dev/null would replace the device. Removes temporary files in that folder
-  /// that killed processes left.
+  /// Makes the hidden file (hidden_files.h) in the target's folder, behind symbolic links, so the links stay. Throws as
+  /// output_place() does, and Error(output) where the folder is missing or cannot be written to. Removes hidden files
+  /// in that folder that nobody will finish.
   explicit AtomicFile(const std::string& target);
   /// Removes the temporary file unless it was committed.
   ~AtomicFile();
@@ -18,16 +19,20 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   const std::string& temporary_path() const { return temporary_; }
+  const OutputPlace& place() const { return place_; }
   int descriptor() const { return descriptor_; }
 
-  /// Syncs the temporary file, renames it to the target and syncs the folder. Throws Error(output).
+  /// Syncs the temporary file, gives it the rights of the file that it replaces, renames it to the target and syncs the
+  /// folder. Throws Error(output).
   void commit();
 
  private:
+  void make();
   void close();
+  [[noreturn]] void fail(int error_number) const;
 
   std::string target_;  ///< as given, for errors
-  std::string place_;   ///< the target behind symbolic links
+  OutputPlace place_;
   std::string temporary_;
   int descriptor_ = -1;
 };

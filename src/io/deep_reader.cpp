@@ -48,6 +48,7 @@ SampleFileInfo info_of(const std::string& path, const DeepHeader& header, const 
   info.path = path;
   info.compression = header.compression;
   info.metadata = header.metadata;
+  info.dropped_attributes = header.dropped;
   info.data_window = window_of(path, "dataWindow", header.data, max_side);
   info.display_window = window_of(path, "displayWindow", header.display, std::numeric_limits<int>::max());
   std::vector<std::string> names;

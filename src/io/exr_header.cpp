@@ -2,6 +2,7 @@
 
 #include <ImfChannelList.h>
 #include <ImfChromaticitiesAttribute.h>
+#include <ImfDoubleAttribute.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFloatVectorAttribute.h>
 #include <ImfHeader.h>
@@ -62,22 +63,31 @@ bool take_value(const Imf::Attribute& attribute, const std::string& name, Metada
   return typed != nullptr;
 }
 
-// Types that rpf::Attribute cannot hold (boxes, time codes, ...) are left out.
-void take_attribute(const Imf::Attribute& attribute, const std::string& name, Metadata& metadata) {
-  take_value<Imf::IntAttribute>(attribute, name, metadata) ||
-      take_value<Imf::FloatAttribute>(attribute, name, metadata) ||
-      take_value<Imf::StringAttribute>(attribute, name, metadata) ||
-      take_value<Imf::FloatVectorAttribute>(attribute, name, metadata) ||
-      take_floats<Imf::V2fAttribute>(attribute, name, 2, metadata) ||
-      take_floats<Imf::V3fAttribute>(attribute, name, 3, metadata) ||
-      take_floats<Imf::ChromaticitiesAttribute>(attribute, name, 8, metadata) ||
-      take_floats<Imf::M33fAttribute>(attribute, name, 9, metadata) ||
-      take_floats<Imf::M44fAttribute>(attribute, name, 16, metadata);
+// Returns false for types that rpf::Attribute cannot hold (boxes, time codes, ...).
+bool take_attribute(const Imf::Attribute& attribute, const std::string& name, Metadata& metadata) {
+  return take_value<Imf::IntAttribute>(attribute, name, metadata) ||
+         take_value<Imf::FloatAttribute>(attribute, name, metadata) ||
+         take_value<Imf::StringAttribute>(attribute, name, metadata) ||
+         take_value<Imf::FloatVectorAttribute>(attribute, name, metadata) ||
+         take_floats<Imf::V2fAttribute>(attribute, name, 2, metadata) ||
+         take_floats<Imf::V3fAttribute>(attribute, name, 3, metadata) ||
+         take_floats<Imf::ChromaticitiesAttribute>(attribute, name, 8, metadata) ||
+         take_floats<Imf::M33fAttribute>(attribute, name, 9, metadata) ||
+         take_floats<Imf::M44fAttribute>(attribute, name, 16, metadata);
 }
 
 template <class Typed>
-auto value_of(const Imf::Header& header, const char* name) {
-  return header.typedAttribute<Typed>(name).value();  // throws where the type is another one
+std::optional<double> number_in(const Imf::Header& header, const char* name) {
+  const auto* attribute = header.findTypedAttribute<Typed>(name);
+  if (attribute == nullptr) return std::nullopt;
+  return static_cast<double>(attribute->value());
+}
+
+// A number of any type: Python writes all of them as floats.
+std::optional<double> number_of(const Imf::Header& header, const char* name) {
+  if (const auto number = number_in<Imf::IntAttribute>(header, name)) return number;
+  if (const auto number = number_in<Imf::FloatAttribute>(header, name)) return number;
+  return number_in<Imf::DoubleAttribute>(header, name);
 }
 
 DeepHeader to_plain(const Imf::Header& header) {
@@ -90,12 +100,12 @@ DeepHeader to_plain(const Imf::Header& header) {
   for (auto c = channels.begin(); c != channels.end(); ++c)
     plain.channels.push_back(
         {c.name(), pixel_type(c.channel().type, c.name()), c.channel().xSampling, c.channel().ySampling});
-  if (header.findTypedAttribute<Imf::StringAttribute>(format_attribute) != nullptr)
-    plain.format = value_of<Imf::StringAttribute>(header, format_attribute);
-  if (header.find(version_attribute) != header.end())
-    plain.version = value_of<Imf::IntAttribute>(header, version_attribute);
+  if (const auto* format = header.findTypedAttribute<Imf::StringAttribute>(format_attribute))
+    plain.format = format->value();
+  plain.version = number_of(header, version_attribute);
   for (auto a = header.begin(); a != header.end(); ++a)
-    if (!is_structural(a.name())) take_attribute(a.attribute(), a.name(), plain.metadata);
+    if (!is_structural(a.name()) && !take_attribute(a.attribute(), a.name(), plain.metadata))
+      plain.dropped.push_back(printable(fmt::format("{} ({})", a.name(), a.attribute().typeName())));
   return plain;
 }
 

@@ -28,8 +28,9 @@ struct DeepHeader {
   std::optional<int> chunk_count;
   std::vector<HeaderChannel> channels;
   std::optional<std::string> format;  ///< rpf:format
-  std::optional<int> version;         ///< rpf:version
+  std::optional<double> version;      ///< rpf:version
   Metadata metadata;
+  std::vector<std::string> dropped;  ///< attributes of types that Metadata does not have, as "name (type)"
 };
 
 /// Parses the header with OpenEXR; check_structure() must have accepted the file, `header_end` is its result.

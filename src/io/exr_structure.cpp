@@ -1,14 +1,17 @@
 #include "io/exr_structure.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <limits>
 #include <map>
 #include <set>
 
+#include "io/attributes.h"
 #include "io/guard.h"
 #include "rpf/error.h"
+#include "rpf/samples.h"
 
 namespace rpf::io {
 namespace {
@@ -96,6 +99,28 @@ void check_size(const FileBytes& file, const AttributeExtent& attribute) {
                                      attribute.name, attribute.size));
 }
 
+// Those that a file is understood by; where another program took another type, it is named with the one expected.
+void check_attribute_type(const FileBytes& file, const AttributeExtent& attribute) {
+  static const std::map<std::string, std::set<std::string>> types = {{"channels", {"chlist"}},
+                                                                     {"compression", {"compression"}},
+                                                                     {"dataWindow", {"box2i"}},
+                                                                     {"displayWindow", {"box2i"}},
+                                                                     {"lineOrder", {"lineOrder"}},
+                                                                     {"pixelAspectRatio", {"float"}},
+                                                                     {"screenWindowCenter", {"v2f"}},
+                                                                     {"screenWindowWidth", {"float"}},
+                                                                     {"type", {"string"}},
+                                                                     {"version", {"int"}},
+                                                                     {"chunkCount", {"int"}},
+                                                                     {"maxSamplesPerPixel", {"int"}},
+                                                                     {format_attribute, {"string"}},
+                                                                     {version_attribute, {"int", "float", "double"}}};
+  const auto expected = types.find(attribute.name);
+  if (expected == types.end() || expected->second.count(attribute.type) > 0) return;
+  reject(file, fmt::format("has the attribute {} of type {}, expected {}; write it with that type", attribute.name,
+                           attribute.type, fmt::join(expected->second, " or ")));
+}
+
 // The channels are stored in the order of their names. A damaged name would move its column and shift all others.
 void check_channel_list(FileBytes& file, const AttributeExtent& attribute) {
   std::uint64_t position = attribute.begin;
@@ -130,6 +155,7 @@ bool next_attribute(FileBytes& file, std::uint64_t& position, AttributeExtent& a
   attribute.size = file.u32(position, "its header");
   attribute.begin = position + 4;
   position = attribute.begin + attribute.size;
+  check_attribute_type(file, attribute);
   check_size(file, attribute);
   return true;
 }

@@ -76,7 +76,7 @@ void check_marker(const std::string& path, const DeepHeader& header, const std::
     reject(path, fmt::format("has the attribute {}={}, expected {}; convert it with the program that wrote it",
                              format_attribute, *header.format, format_value));
   if (header.version && *header.version != format_version)
-    reject(path, fmt::format("has {} {}, but this program reads version {}; update the program or write that version",
+    reject(path, fmt::format("has {} {:g}, but this program reads version {}; update the program or write that version",
                              version_attribute, *header.version, format_version));
   // Files from before the marker was settled have only their channels to show.
   const bool marked = std::any_of(channels.begin(), channels.end(),

@@ -24,7 +24,7 @@ void check_image(const std::string& path, const Image& image) {
 
 }  // namespace
 
-Image inspect_image(const std::string& path) { return io::image_library().inspect(path); }
+Image inspect_image(const std::string& path) { return io::image_library(ErrorKind::input, path).inspect(path); }
 
 std::uint64_t image_bytes(const Image& header) {
   // As floats, and what some formats unpack as a whole: half of that, for 16 bits a channel.
@@ -33,16 +33,16 @@ std::uint64_t image_bytes(const Image& header) {
 
 Image read_image(const std::string& path, std::uint64_t max_memory) {
   if (max_memory > 0) io::check_budget(path, image_bytes(inspect_image(path)), max_memory);
-  return io::image_library().read(path);
+  return io::image_library(ErrorKind::input, path).read(path);
 }
 
 void write_image(const std::string& path, const Image& image) {
   check_image(path, image);
   io::AtomicFile file(path);  // first: a folder or /dev/full is no question of its extension
-  if (std::string(io::format_of(path).extension) == ".exr")
-    io::write_exr_image(path, file, image);
+  if (io::format_of(path).library)
+    io::image_library(ErrorKind::output, path).write(path, file, image);
   else
-    io::image_library().write(path, file, image);
+    io::write_exr_image(path, file, image);
   file.commit();
 }
 

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 
+#include "io/sample_formats.h"
 #include "rpf/error.h"
 #include "rpf/srgb.h"
 
@@ -15,20 +14,21 @@ namespace rpf::io {
 namespace {
 
 // OpenImageIO writes more formats, but they hold 8 or 16 linear bits, cannot be checked, or print to the terminal.
-const std::array<ImageFormat, 14> formats = {{{".exr", Encoding::linear_float, true, true},
-                                              {".tif", Encoding::linear_float, true, true},
-                                              {".tiff", Encoding::linear_float, true, true},
-                                              {".hdr", Encoding::linear_float, false, false},
-                                              {".rgbe", Encoding::linear_float, false, false},
-                                              {".png", Encoding::srgb_bytes, false, true},
-                                              {".jpg", Encoding::srgb_bytes, false, false},
-                                              {".jpeg", Encoding::srgb_bytes, false, false},
-                                              {".bmp", Encoding::srgb_bytes, false, true},
-                                              {".tga", Encoding::srgb_bytes, false, true},
-                                              {".gif", Encoding::srgb_bytes, false, true},
-                                              {".webp", Encoding::srgb_bytes, false, true},
-                                              {".ppm", Encoding::srgb_bytes, false, false},
-                                              {".pnm", Encoding::srgb_bytes, false, false}}};
+constexpr int any_size = 1 << 20, byte_pairs = 65535;
+const std::array<ImageFormat, 14> formats = {{{".exr", Encoding::linear_float, true, true, false, any_size},
+                                              {".tif", Encoding::linear_float, true, true, true, any_size},
+                                              {".tiff", Encoding::linear_float, true, true, true, any_size},
+                                              {".hdr", Encoding::linear_float, false, false, true, any_size},
+                                              {".rgbe", Encoding::linear_float, false, false, true, any_size},
+                                              {".png", Encoding::srgb_bytes, false, true, true, 1000000},
+                                              {".jpg", Encoding::srgb_bytes, false, false, true, 65500},
+                                              {".jpeg", Encoding::srgb_bytes, false, false, true, 65500},
+                                              {".bmp", Encoding::srgb_bytes, false, true, true, any_size},
+                                              {".tga", Encoding::srgb_bytes, false, true, true, byte_pairs},
+                                              {".gif", Encoding::srgb_bytes, false, true, true, byte_pairs},
+                                              {".webp", Encoding::srgb_bytes, false, true, true, 16383},
+                                              {".ppm", Encoding::srgb_bytes, false, false, true, any_size},
+                                              {".pnm", Encoding::srgb_bytes, false, false, true, any_size}}};
 
 // Nearest of 256 levels.
 std::uint8_t to_byte(double value) {
@@ -39,9 +39,7 @@ std::uint8_t to_byte(double value) {
 }  // namespace
 
 const ImageFormat& format_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  const std::string extension = extension_of(path);
   std::string known;
   for (const ImageFormat& format : formats) {
     if (extension == format.extension) return format;
@@ -51,23 +49,32 @@ const ImageFormat& format_of(const std::string& path) {
               fmt::format("\"{}\" has no extension of an image format that can be written; use one of{}", path, known));
 }
 
-std::vector<std::size_t> columns_of(const std::string& path, const ImageFormat& format, const Image& image) {
+std::vector<std::size_t> columns_of(const std::string& path, const ImageFormat& format,
+                                    const std::vector<std::string>& channels) {
   std::vector<std::size_t> columns;
   if (format.any_channels) {
-    for (std::size_t c = 0; c < image.channel_count(); ++c) columns.push_back(c);
+    for (std::size_t c = 0; c < channels.size(); ++c) columns.push_back(c);
     return columns;
   }
   for (const char* name : {"R", "G", "B", "A"}) {
-    const auto found = std::find(image.channels.begin(), image.channels.end(), name);
+    const auto found = std::find(channels.begin(), channels.end(), name);
     const bool is_alpha = *name == 'A';
-    if (found != image.channels.end() && (!is_alpha || format.alpha))
-      columns.push_back(static_cast<std::size_t>(found - image.channels.begin()));
+    if (found != channels.end() && (!is_alpha || format.alpha))
+      columns.push_back(static_cast<std::size_t>(found - channels.begin()));
     else if (!is_alpha)
       throw Error(ErrorKind::output, fmt::format("\"{}\" needs the channels R, G and B, but the image has no {}; "
                                                  "write an .exr file instead",
                                                  path, name));
   }
   return columns;
+}
+
+void check_size(const std::string& path, const ImageFormat& format, const Window& window) {
+  if (std::max(window.width, window.height) > format.longest_side)
+    throw Error(ErrorKind::output,
+                fmt::format("\"{}\" takes at most {} pixels a side, but the image has {} x {}; write "
+                            "an .exr file instead",
+                            path, format.longest_side, window.width, window.height));
 }
 
 std::vector<std::uint8_t> encode_bytes(const Image& image, const std::vector<std::size_t>& columns) {

@@ -17,13 +17,20 @@ struct ImageFormat {
   Encoding encoding;
   bool any_channels;  ///< else R, G, B
   bool alpha;         ///< A beside R, G, B
+  bool library;       ///< written by the library of images (image_library.h)
+  int longest_side;   ///< pixels of width or height that the format or its library takes
 };
 
 /// The format by the extension of `path`, in any case of letters. Throws Error(output) that lists all extensions.
 const ImageFormat& format_of(const std::string& path);
 
-/// Columns of the image that the format stores, in its order. Throws Error(output) where R, G or B is missing.
-std::vector<std::size_t> columns_of(const std::string& path, const ImageFormat& format, const Image& image);
+/// Columns of an image with these channels that the format stores, in its order. Throws Error(output) where R, G or B
+/// is missing.
+std::vector<std::size_t> columns_of(const std::string& path, const ImageFormat& format,
+                                    const std::vector<std::string>& channels);
+
+/// Throws Error(output) where the format takes no image of that size.
+void check_size(const std::string& path, const ImageFormat& format, const Window& window);
 
 /// Three or four columns as sRGB bytes: clamped to [0,1], rounded to nearest, NaN as 0. Bytes are stored not multiplied
 /// by alpha, as PNG demands; alpha itself is linear.

@@ -9,20 +9,22 @@ namespace rpf::io {
 namespace {
 
 /// The library stays loaded: 250 libraries do not unload cleanly.
-const ImageLibrary& load() {
+const ImageLibrary& load(ErrorKind kind, const std::string& path) {
   void* library = dlopen("$ORIGIN/" RPF_IMAGES_NAME, RTLD_LAZY);
   if (library == nullptr) library = dlopen(RPF_IMAGES_FILE, RTLD_LAZY);
   const void* symbol = library == nullptr ? nullptr : dlsym(library, "rpf_image_library");
   if (symbol != nullptr) return *static_cast<const ImageLibrary*>(symbol);
-  throw Error(ErrorKind::internal, fmt::format("reading images, and writing others than .exr, needs " RPF_IMAGES_NAME
-                                               " beside the program ({}); put it there",
-                                               dlerror()));
+  throw Error(kind,
+              fmt::format("\"{}\" cannot be {}: reading images, and writing others than .exr, needs " RPF_IMAGES_NAME
+                          " beside the program ({}); put it there{}",
+                          path, kind == ErrorKind::output ? "written" : "read", dlerror(),
+                          kind == ErrorKind::output ? " or write an .exr file" : ""));
 }
 
 }  // namespace
 
-const ImageLibrary& image_library() {
-  static const ImageLibrary& library = load();
+const ImageLibrary& image_library(ErrorKind kind, const std::string& path) {
+  static const ImageLibrary& library = load(kind, path);
   return library;
 }
 

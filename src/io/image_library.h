@@ -4,6 +4,7 @@
 #include <string>
 
 #include "io/atomic_file.h"
+#include "rpf/error.h"
 #include "rpf/image.h"
 
 namespace rpf::io {
@@ -15,8 +16,8 @@ struct ImageLibrary {
   void (*write)(const std::string& path, const AtomicFile& file, const Image& image);
 };
 
-/// Loads librpf_images.so from the program's own folder, or from where it was built. Throws Error(internal) where it is
-/// missing.
-const ImageLibrary& image_library();
+/// Loads librpf_images.so from the program's own folder, or from where it was built. `kind`: input or output, what it
+/// is needed for. Throws Error(kind) that names the file it is needed for where the library is missing.
+const ImageLibrary& image_library(ErrorKind kind, const std::string& path);
 
 }  // namespace rpf::io

@@ -51,6 +51,8 @@ SampleBuffer empty_buffer(const SampleFileInfo& info) {
   samples.data_window = info.data_window;
   samples.display_window = info.display_window;
   samples.metadata = info.metadata;
+  for (const SampleFileChannel& channel : info.channels)
+    if (channel.type == PixelType::half_float && !channel.slot.empty()) samples.half_slots.push_back(channel.slot);
   std::vector<std::string> slots;
   slots.reserve(info.channels.size());
   for (const SampleFileChannel& channel : info.channels) slots.push_back(channel.slot);

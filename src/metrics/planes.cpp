@@ -1,6 +1,7 @@
 #include "metrics/planes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numeric>
@@ -13,7 +14,8 @@ namespace {
 std::size_t channel_of(const Image& image, const char* name, const char* role) {
   const auto found = std::find(image.channels.begin(), image.channels.end(), name);
   if (found != image.channels.end()) return static_cast<std::size_t>(found - image.channels.begin());
-  throw Error(ErrorKind::input, fmt::format("the {} has no channel {}; R, G and B are compared", role, name));
+  throw Error(ErrorKind::input, fmt::format("the {} has no channel {}; R, G and B are compared, and it has {}", role,
+                                            name, fmt::join(image.channels, ", ")));
 }
 
 Plane plane_of(const Image& image, const char* name, const char* role) {
@@ -32,10 +34,15 @@ ColorPlanes color_of(const Image& image, const char* role) {
 
 Pair planes_of(const Image& image, const Image& reference) {
   const Window &a = image.data_window, &b = reference.data_window;
-  if (a.width != b.width || a.height != b.height)
+  if (!(a == b))
     throw Error(ErrorKind::input,
-                fmt::format("the image has {}x{} pixels, its reference {}x{}; equal sizes are expected", a.width,
-                            a.height, b.width, b.height));
+                fmt::format("the image has the data window {}, its reference {}; pixels of one place are "
+                            "compared: crop or move one of them",
+                            text_of(a), text_of(b)));
+  if (!image.view.empty() && !reference.view.empty() && image.view != reference.view)
+    throw Error(ErrorKind::input, fmt::format("the image is of the view \"{}\", its reference of \"{}\"; one view is "
+                                              "compared with itself",
+                                              image.view, reference.view));
   return {color_of(image, "image"), color_of(reference, "reference")};
 }
 

@@ -56,7 +56,8 @@ bool has_new_avx512(const cl::Device& device) {
 }
 
 /// No option that trades accuracy; division and square root correctly rounded where that must be asked for; arguments'
-/// kinds for rehearse(). No warnings: PoCL counts them on standard error, and the tests compile with all of them.
+/// kinds for rehearse(). No warnings: the compiler counts them on standard error, past every -q, and the build has
+/// looked at them (tests, kernels.*).
 std::string build_options(const cl::Device& device, const std::string& definitions) {
   const bool asks = (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
   return "-cl-std=CL1.2 -cl-kernel-arg-info -w " + std::string(asks ? "-cl-fp32-correctly-rounded-divide-sqrt " : "") +

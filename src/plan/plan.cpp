@@ -8,7 +8,6 @@
 
 #include "plan/fixed_weights.h"
 #include "plan/regions.h"
-#include "plan/validate.h"
 #include "rpf/error.h"
 #include "trace_layout.h"
 

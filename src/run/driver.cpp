@@ -8,7 +8,6 @@
 #include "after/spikes.h"
 #include "learned/network_file.h"
 #include "learned/observe.h"
-#include "plan/validate.h"
 #include "rpf/error.h"
 #include "run/backends.h"
 #include "run/estimate_bands.h"

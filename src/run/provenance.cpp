@@ -27,9 +27,9 @@ std::string steps_text(const Settings& s) {
 std::string choices_text(const Settings& s) {
   return fmt::format(
       "statistics-block={} statistics-samples={} alpha-factor={} position-scale={} redraws={} reject-second-hit={} "
-      "bias-correction={} clamp-negative={} drop-uninformative={}",
+      "bias-correction={} clamp-negative={} clamp-infinite={} drop-uninformative={}",
       s.statistics_block, s.statistics_samples, s.alpha_factor, s.position_scale, s.redraws, s.reject_second_hit,
-      s.bias_correction, s.clamp_negative, s.drop_uninformative);
+      s.bias_correction, s.clamp_negative, s.clamp_infinite, s.drop_uninformative);
 }
 
 /// What Random Parameter Filtering was told.
@@ -60,7 +60,8 @@ void describe_fixed_weights(const Settings& settings, Metadata& m) {
   m["rpf:steps"] = steps_text(settings);
   if (settings.method != Method::gaussian) m["rpf:sigmaColor"] = settings.sigma_color;
   if (settings.method == Method::cross_bilateral) m["rpf:sigmaFeature"] = settings.sigma_feature;
-  m["rpf:choices"] = fmt::format("clamp-negative={}", settings.clamp_negative);
+  m["rpf:choices"] =
+      fmt::format("clamp-negative={} clamp-infinite={}", settings.clamp_negative, settings.clamp_infinite);
 }
 
 }  // namespace

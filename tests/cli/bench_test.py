@@ -62,7 +62,7 @@ class BenchTest(CommandCase):
 
     def test_wrong_settings_are_named(self):
         self.expect(run("frames", EXAMPLE, "--set", "wrong=--boxen 5"), 2, "wrong", "--boxen")
-        self.expect(run("frames", EXAMPLE, "--set", "even=--boxes 4"), 2, "box width 4")
+        self.expect(run("frames", EXAMPLE, "--set", "even=--boxes 4"), 2, "--boxes 4")
         self.expect(run("frames", EXAMPLE, "--set", "out=-o x.exr"), 2, "out", "files")
         self.expect(run("frames", EXAMPLE, EXAMPLE, "--reference", REFERENCE), 2, "2 files and 1 references")
 

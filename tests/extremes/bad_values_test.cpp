@@ -60,7 +60,7 @@ RC_GTEST_PROP(BadValue, OfAFeatureOrRandomParameterIsMissing, ()) {
                                                                         "feature.P.Y", "feature.albedo.R", "film.X"});
   value_of(bad, sample, slot) = missing;
   const Result result = run(bad, settings);
-  const InputNote note = note_of(result, "missing values of " + slot);
+  const InputNote note = note_of(result, "samples with missing values of " + slot);
   RC_ASSERT(note.count == 1U);
   RC_ASSERT(note.y * 24 + note.x == pixel);
   RC_ASSERT(not_finite(result.image.pixels) == "");
@@ -75,7 +75,7 @@ RC_GTEST_PROP(BadValue, InAllSamplesIsAChannelThatIsNotThere, ()) {
   fill(bad, "feature.albedo.R", *rc::gen::element(missing, infinity, 1e38F));
   fill(absent, "feature.albedo.R", 0.5F);
   const Result result = run(bad, settings);
-  RC_ASSERT(note_of(result, "missing values of feature.albedo.R").count == good.sample_count());
+  RC_ASSERT(note_of(result, "samples with missing values of feature.albedo.R").count == good.sample_count());
   RC_ASSERT(difference(result.image.pixels, filtered(absent, settings), 24) == "");
 }
 
@@ -125,10 +125,9 @@ TEST(Notes, AreInTheImagesAttributesWithCountAndFirstPlace) {
   write_image(path, run(samples, settings).image);
   EXPECT_EQ(std::get<std::string>(read_image(path).metadata.at("rpf:notes")),
             "samples left out: R, G or B not finite: 6 (first at pixel 3,0); "
-            "pixels without samples, black: 1 (first at pixel -5,2); "
+            "pixels that lost all their samples, filled from their neighbors: 1 (first at pixel -5,2); "
             "negative radiance values, set to 0: 1 (first at pixel -7,1); "
-            "missing values of random.time: 1 (first at pixel -5,1); "
-            "missing values of feature.N.X: 1 (first at pixel -6,1)");
+            "samples with missing values of random.time feature.N.X: 2 (first at pixel -6,1)");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ NUMERIC, ELEMENTWISE, MATH = "kernels/numeric.h", "kernels/elementwise.h", "kern
 NEIGHBORHOOD, STATISTICS = "src/cpu/neighborhood.cpp", "src/cpu/statistics.cpp"
 WEIGHTING, BACKEND = "src/cpu/weighting.cpp", "src/cpu/cpu_backend.cpp"
 PLAN, TABLES, CLEAN = "src/plan/plan.cpp", "src/plan/tables.cpp", "src/frame/clean.cpp"
-SIZE, REGIONS, VALIDATE = "src/plan/neighborhood_size.cpp", "src/plan/regions.cpp", "src/plan/validate.cpp"
+SIZE, REGIONS, RANGES = "src/plan/neighborhood_size.cpp", "src/plan/regions.cpp", "include/rpf/ranges.h"
 PREPARE, DRIVER, RESOLVE = "src/frame/prepare.cpp", "src/run/driver.cpp", "src/after/resolve.cpp"
 MERGE, RAW_READER, HDR_FLIP = "src/frame/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
 SELECTION, SPIKES, POLISH_TILE = "src/frame/selection.cpp", "src/after/spikes.cpp", "src/after/polish_tile.cpp"
@@ -300,7 +300,7 @@ MUTANTS = [
            "Filter.StatisticsBlockGivesTheSamePixelsForACrop", "statistics block: what was measured before is used"),
     Mutant("block_tiles_with_gaps", "src/run/tiles.cpp", "x += width)", "x += width + block)",
            "Filter.StatisticsBlockGivesTheSameBitsForThreadsAndTiles", "statistics block: tiles leave pixels out"),
-    Mutant("block_out_of_range", VALIDATE, "s.statistics_block <= 16", "s.statistics_block <= 17",
+    Mutant("block_out_of_range", RANGES, "statistics_block{1, 16,", "statistics_block{1, 17,",
            "Filter.RefusesEffortThatCannotBeAndNamesIt", "statistics block: 17 is accepted"),
     Mutant("samples_all_measured", STATISTICS, "std::min(n.size(), plan.statistics_samples)", "n.size()",
            "oracle statistics_samples bins", "statistics samples: all neighbors are measured"),

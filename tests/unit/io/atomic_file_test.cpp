@@ -2,11 +2,15 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/mount.h>
+#include <sys/wait.h>
 #include <unistd.h>
+
+#include <chrono>
 
 #include "deep_files.h"
 #include "io/atomic_file.h"
 #include "io/checked_writer.h"
+#include "io/hidden_files.h"
 #include "temporary_folder.h"
 
 namespace {
@@ -74,19 +78,48 @@ TEST(AtomicFile, WithoutCommitTheTargetIsUntouched) {
   EXPECT_EQ(folder.entry_count(), 1U);
 }
 
-TEST(AtomicFile, RemovesWhatKilledProcessesLeftAndNothingElse) {
+// ".rpf-<host>-<process>-<n>.exr" of this host and a process.
+std::string hidden_of(pid_t process, int number) {
+  const std::string name = rpf::io::hidden_name("");
+  const auto host = name.rfind('-', name.rfind('-') - 1);
+  return name.substr(0, host) + "-" + std::to_string(process) + "-" + std::to_string(number) + ".exr";
+}
+
+pid_t dead_process() {
+  const pid_t process = ::fork();
+  if (process == 0) ::_exit(0);
+  ::waitpid(process, nullptr, 0);
+  return process;
+}
+
+TEST(AtomicFile, RemovesWhatDeadProcessesOfThisHostLeft) {
   const TemporaryFolder folder;
-  for (const char* name : {".rpf-123-0.exr", ".rpf-4194304-17", ".rpf-notes.exr", "rpf-123-0.exr", "out.exr"})
+  const std::string dead = hidden_of(dead_process(), 0), alive = hidden_of(::getppid(), 0);
+  for (const std::string& name : {dead, alive, std::string(".rpf-notes.exr"), std::string("rpf-a-123-0.exr")})
     write_bytes(folder.file(name), "old");
-  std::filesystem::create_directory(folder.file(".rpf-123-1.exr"));
+  std::filesystem::create_directory(folder.file(hidden_of(dead_process(), 1)));
   AtomicFile file(folder.file("out.exr"));
   put(file, "new");
   const AtomicFile other(folder.file("another.exr"));  // of this process or of another one: both write
-  EXPECT_FALSE(std::filesystem::exists(folder.file(".rpf-123-0.exr")));
-  EXPECT_FALSE(std::filesystem::exists(folder.file(".rpf-4194304-17")));
+  EXPECT_FALSE(std::filesystem::exists(folder.file(dead)));
+  EXPECT_TRUE(std::filesystem::exists(folder.file(alive)));
   EXPECT_EQ(folder.entry_count(), 4U + 2U);
   file.commit();
   EXPECT_EQ(file_bytes(folder.file("out.exr")), "new");
+}
+
+// Locks of network disks may be local to a machine: that nobody here holds one says nothing about the others.
+TEST(AtomicFile, RemovesWhatOtherHostsLeftAfterADayOnly) {
+  const TemporaryFolder folder;
+  const std::string young = folder.file(".rpf-render-17_0badcafe-1-0.exr"),
+                    old = folder.file(".rpf-render-18_0-1-0.exr");
+  for (const std::string& path : {young, old}) write_bytes(path, "frame");
+  const auto now = std::filesystem::file_time_type::clock::now();
+  std::filesystem::last_write_time(young, now - std::chrono::hours(23));
+  std::filesystem::last_write_time(old, now - std::chrono::hours(25));
+  const AtomicFile file(folder.file("out.exr"));
+  EXPECT_TRUE(std::filesystem::exists(young));
+  EXPECT_FALSE(std::filesystem::exists(old));
 }
 
 TEST(AtomicFile, TargetsThatCannotBe) {

@@ -5,6 +5,7 @@
 
 #include "deep_files.h"
 #include "rpf/io.h"
+#include "rpf/outputs.h"
 #include "temporary_folder.h"
 
 namespace {
@@ -251,14 +252,14 @@ TEST(RawRefusals, NoFlippedByteCrashes) {
 TEST(SampleTargets, OnlyTwoExtensionsHoldSamples) {
   const TemporaryFolder folder;
   const SampleBuffer samples = make_buffer({0, 0, 2, 2}, [](int) { return 1U; });
+  const auto check = [](const std::string& path) { rpf::check_outputs({{path, rpf::OutputKind::samples}}, {}); };
   for (const std::string name : {"a.png", "a", "a.json"}) {
     expect_error(error_of([&] { rpf::write_samples(folder.file(name), samples); }), ErrorKind::output,
                  {name, ".exr", ".rpf"});
-    expect_error(error_of([&] { rpf::check_sample_target(folder.file(name)); }), ErrorKind::output,
-                 {name, ".exr", ".rpf"});
+    expect_error(error_of([&] { check(folder.file(name)); }), ErrorKind::output, {name, ".exr", ".rpf"});
   }
-  EXPECT_THROW(rpf::check_sample_target(folder.file("no/a.exr")), rpf::Error);
-  for (const std::string name : {"a.EXR", "a.Rpf"}) rpf::check_sample_target(folder.file(name));
+  EXPECT_THROW(check(folder.file("no/a.exr")), rpf::Error);
+  for (const std::string name : {"a.EXR", "a.Rpf"}) check(folder.file(name));
   EXPECT_EQ(folder.entry_count(), 0U);
 }
 

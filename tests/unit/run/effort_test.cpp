@@ -170,7 +170,7 @@ TEST(Filter, RefusesEffortThatCannotBeAndNamesIt) {
                 AllOf(HasSubstr("block"), HasSubstr(std::to_string(block))));
   for (const auto& [factor, text] : {std::pair{0.0, " 0"}, {-2.5, "-2.5"}, {2e6, "2000000"}, {std::nan(""), "nan"}})
     EXPECT_THAT(refusal([f = factor](Settings& s) { s.neighbors_factor = f; }),
-                AllOf(HasSubstr("neighbors factor"), HasSubstr(text)));
+                AllOf(HasSubstr("--neighbors-factor"), HasSubstr(text)));
   for (const int block : {1, 16}) EXPECT_EQ(refusal([block](Settings& s) { s.statistics_block = block; }), "accepted");
 }
 

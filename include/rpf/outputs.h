@@ -1,0 +1,41 @@
+// What is going to be written, decided before the work: all files of a command together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rpf/image.h"
+
+namespace rpf {
+
+enum class OutputKind { image, samples, page };
+
+/// A file that is going to be written.
+struct PlannedOutput {
+  std::string path;
+  OutputKind kind = OutputKind::image;
+  std::vector<std::string> channels = {"R", "G", "B"};  ///< of an image
+  Window window = {};                                   ///< of an image; no size: not known yet
+  bool may_be_input = false;                            ///< it is a new form of an input, so it may take its place
+  bool makes_folder = false;                            ///< its folder is made when it is missing
+};
+
+/// Refuses what would fail or destroy something after the work. Throws Error(output) where a target cannot be written
+/// (docs/file-format.md, "Files that are written"), where its extension is of no format or its format cannot hold the
+/// channels or the size, or where the library of its format is missing; Error(usage) where two outputs are one file, or
+/// an output is an input that it must not replace. Leaves nothing.
+void check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<std::string>& inputs);
+
+/// Throws Error(usage) where a crop is not inside the data window, so that it has nothing to write.
+void check_crop(const Window& crop, const Window& data_window);
+
+/// Whether two paths lead to one file, whatever they are called.
+bool is_same_file(const std::string& a, const std::string& b);
+
+/// Bits of a value in an image with this name: 8, or 32 of a float. Throws Error(output) for an unknown extension.
+int stored_bits(const std::string& path);
+
+/// Makes a folder inside one that is there; nothing where it is there itself. Throws Error(output).
+void make_folder(const std::string& path);
+
+}  // namespace rpf

@@ -1,0 +1,23 @@
+#include "cli/numbers.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdlib>
+
+namespace rpf::cli {
+
+std::string refusal_of(const std::string& text, const NumberRange& range, const std::string& variable) {
+  double value = 0;
+  const char *begin = text.data() + (text[0] == '+' ? 1 : 0), *end = text.data() + text.size();
+  // Not strtod(), which asks the locale.
+  const auto [stop, failure] = std::from_chars(begin, end, value);
+  if (failure == std::errc() && stop == end && range.has(value) &&
+      (!range.whole || text.find_first_of(".eE") == std::string::npos))
+    return "";
+  const char* from_environment = variable.empty() ? nullptr : std::getenv(variable.c_str());
+  const std::string source = from_environment != nullptr && text == from_environment ? variable + "=" : "";
+  return fmt::format("{}'{}': {}", source, text.substr(0, 40), range.expected());
+}
+
+}  // namespace rpf::cli

@@ -1,0 +1,110 @@
+#include "frame/conventions.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "frame/tally.h"
+
+namespace rpf {
+namespace {
+
+constexpr double nearly_all = 0.9;  // some agree by chance with ours, and so are not among those that contradict it
+
+/// Random numbers; 1 itself is what half makes of the largest below it.
+class RandomCheck : public ConventionCheck {
+ public:
+  explicit RandomCheck(const SampleLayout& layout) : layout_(layout), wrong_(layout.size()) {
+    for (std::size_t c = 0; c < layout.size(); ++c)
+      if (is_random_slot(layout.slots[c])) columns_.push_back(c);
+  }
+
+  void add(const float* record, std::size_t pixel) override {
+    for (const std::size_t c : columns_) {
+      const float value = record[c];
+      if ((value >= 0 && value <= 1) || !std::isfinite(value)) continue;
+      outside_.add(pixel);
+      wrong_[c] = 1;
+      if (value >= -1 && value < 0) ++is_signed_.agreeing;
+    }
+  }
+
+  void tell(const Window& data_window, std::vector<InputNote>& notes) const override {
+    std::vector<std::string> names;
+    for (const std::size_t c : columns_)
+      if (wrong_[c] != 0) names.push_back(layout_.slots[c]);
+    outside_.tell(fmt::format("random numbers outside 0 to 1 ({}){}", fmt::join(names, " "),
+                              advice_of({is_signed_}, outside_.count, "; write the number that was drawn, in [0,1)")),
+                  data_window, notes);
+  }
+
+ private:
+  const SampleLayout& layout_;
+  std::vector<std::size_t> columns_;
+  std::vector<char> wrong_;  ///< [column]
+  Tally outside_;
+  Guess is_signed_{"which look like -1 to 1; write (r + 1) / 2"};
+};
+
+/// Pixels whose samples are copies of one: a sampler that starts anew for every sample.
+class CopyCheck : public ConventionCheck {
+ public:
+  explicit CopyCheck(const SampleBuffer& samples) : samples_(samples) {}
+
+  void add(const float* record, std::size_t pixel) override {
+    const std::uint32_t begin = samples_.first_sample[pixel], end = samples_.first_sample[pixel + 1];
+    const float* first = samples_.record(begin);
+    if (record == first) same_ = end - begin > 1;
+    same_ = same_ && std::memcmp(first, record, samples_.layout.size() * sizeof(float)) == 0;
+    if (same_ && record == samples_.record(end - 1)) copies_.add(pixel);
+  }
+
+  void tell(const Window& data_window, std::vector<InputNote>& notes) const override {
+    copies_.tell(
+        "pixels whose samples are all the same, which tells nothing about noise; give each sample random numbers of "
+        "its own",
+        data_window, notes);
+  }
+
+ private:
+  const SampleBuffer& samples_;
+  bool same_ = false;
+  Tally copies_;
+};
+
+}  // namespace
+
+std::string advice_of(const std::vector<Guess>& guesses, std::uint64_t count, const std::string& otherwise) {
+  for (const Guess& guess : guesses)
+    if (static_cast<double>(guess.agreeing) >= nearly_all * static_cast<double>(count)) return ", " + guess.advice;
+  return otherwise;
+}
+
+std::vector<std::size_t> columns_of(const SampleLayout& layout, const std::string& prefix, const char* components) {
+  std::vector<std::size_t> columns;
+  for (const char* letter = components; *letter != '\0'; ++letter) {
+    const auto column = layout.find(prefix + "." + *letter);
+    if (!column) return {};
+    columns.push_back(*column);
+  }
+  return columns;
+}
+
+std::vector<InputNote> check_conventions(const SampleBuffer& samples) {
+  ConventionChecks checks;
+  add_film_check(samples, checks);
+  checks.push_back(std::make_unique<RandomCheck>(samples.layout));
+  add_surface_checks(samples, checks);
+  checks.push_back(std::make_unique<CopyCheck>(samples));
+  for (std::size_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel)
+    for (std::uint32_t i = samples.first_sample[pixel]; i < samples.first_sample[pixel + 1]; ++i)
+      for (const auto& check : checks) check->add(samples.record(i), pixel);
+  std::vector<InputNote> notes;
+  for (const auto& check : checks) check->tell(samples.data_window, notes);
+  return notes;
+}
+
+}  // namespace rpf

@@ -1,0 +1,45 @@
+// What in a frame contradicts docs/file-format.md: each check sees every sample once.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rpf/filter.h"
+#include "rpf/samples.h"
+
+namespace rpf {
+
+class ConventionCheck {
+ public:
+  ConventionCheck() = default;
+  virtual ~ConventionCheck() = default;
+  ConventionCheck(const ConventionCheck&) = delete;
+  ConventionCheck& operator=(const ConventionCheck&) = delete;
+
+  /// One sample of a pixel (row-major in the data window); pixels come in ascending order.
+  virtual void add(const float* record, std::size_t pixel) = 0;
+  virtual void tell(const Window& data_window, std::vector<InputNote>& notes) const = 0;
+};
+using ConventionChecks = std::vector<std::unique_ptr<ConventionCheck>>;
+
+/// Film positions outside their pixel.
+void add_film_check(const SampleBuffer& samples, ConventionChecks& checks);
+/// Normals, reflectances, and whether positions lie on surfaces with these normals; of those that the frame has.
+void add_surface_checks(const SampleBuffer& samples, ConventionChecks& checks);
+
+/// A convention that values may follow in place of ours, and what to do about it.
+struct Guess {
+  std::string advice;
+  std::uint64_t agreeing = 0;  ///< of the values that contradict ours
+};
+
+/// The advice of the first guess that nearly all of `count` values agree with, else `otherwise`.
+std::string advice_of(const std::vector<Guess>& guesses, std::uint64_t count, const std::string& otherwise);
+
+/// The columns of a slot's components, such as {"feature.N.X", "feature.N.Y", "feature.N.Z"}; empty where one is
+/// missing.
+std::vector<std::size_t> columns_of(const SampleLayout& layout, const std::string& prefix, const char* components);
+
+}  // namespace rpf

@@ -1,0 +1,154 @@
+// Features that cannot be what their names say: normals, reflectances, positions.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "frame/conventions.h"
+#include "frame/tally.h"
+
+namespace rpf {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+constexpr double unit_slack = 0.05;  ///< of a normal's length: half, and interpolation over a triangle
+constexpr float most_reflected = 2;  ///< renderers give 1 and a little; beyond this it is another unit
+constexpr double near_parallel = 0.99, off_surface = 0.3;  ///< cosines
+
+Vector vector_at(const float* record, const std::vector<std::size_t>& columns) {
+  return {record[columns[0]], record[columns[1]], record[columns[2]]};
+}
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+bool is_unit(const Vector& v) {
+  constexpr double least = (1 - unit_slack) * (1 - unit_slack), most = (1 + unit_slack) * (1 + unit_slack);
+  const double square = dot(v, v);
+  return square >= least && square <= most;
+}
+
+/// The checks of samples that hit something.
+class HitCheck : public ConventionCheck {
+ public:
+  explicit HitCheck(const SampleLayout& layout) : hit_(layout.find("feature.hit")) {}
+  void add(const float* record, std::size_t pixel) final {
+    if (!hit_ || record[*hit_] != 0) add_hit(record, pixel);
+  }
+
+ private:
+  virtual void add_hit(const float* record, std::size_t pixel) = 0;
+
+  std::optional<std::size_t> hit_;
+};
+
+class NormalCheck : public HitCheck {
+ public:
+  NormalCheck(const SampleLayout& layout, std::string group, std::vector<std::size_t> columns)
+      : HitCheck(layout), group_(std::move(group)), columns_(std::move(columns)) {}
+
+  void tell(const Window& data_window, std::vector<InputNote>& notes) const override {
+    wrong_.tell(fmt::format("normals {} whose length is not 1{}", group_,
+                            advice_of({encoded_}, wrong_.count, "; write unit vectors in world space")),
+                data_window, notes);
+  }
+
+ private:
+  void add_hit(const float* record, std::size_t pixel) override {
+    const Vector n = vector_at(record, columns_);
+    if (is_unit(n) || dot(n, n) == 0 || !std::isfinite(dot(n, n))) return;  // (0,0,0): nothing was hit
+    wrong_.add(pixel);
+    const bool in_cube = n[0] >= 0 && n[0] <= 1 && n[1] >= 0 && n[1] <= 1 && n[2] >= 0 && n[2] <= 1;
+    encoded_.agreeing += in_cube && is_unit({2 * n[0] - 1, 2 * n[1] - 1, 2 * n[2] - 1}) ? 1 : 0;
+  }
+
+  std::string group_;
+  std::vector<std::size_t> columns_;
+  Tally wrong_;
+  Guess encoded_{"which look encoded to 0 to 1; write 2 N - 1"};
+};
+
+class AlbedoCheck : public HitCheck {
+ public:
+  AlbedoCheck(const SampleLayout& layout, std::string group, std::vector<std::size_t> columns)
+      : HitCheck(layout), group_(std::move(group)), columns_(std::move(columns)) {}
+
+  void tell(const Window& data_window, std::vector<InputNote>& notes) const override {
+    wrong_.tell(fmt::format("values of {} far from 0 to 1{}", group_,
+                            advice_of({bytes_}, wrong_.count, "; write the part of the light that is reflected")),
+                data_window, notes);
+  }
+
+ private:
+  void add_hit(const float* record, std::size_t pixel) override {
+    for (const std::size_t c : columns_) {
+      const float value = record[c];
+      if ((value <= most_reflected && value >= 0) || !std::isfinite(value)) continue;
+      wrong_.add(pixel);
+      bytes_.agreeing += value > 0 && value <= 255 && value == std::floor(value) ? 1 : 0;
+      return;
+    }
+  }
+
+  std::string group_;
+  std::vector<std::size_t> columns_;
+  Tally wrong_;
+  Guess bytes_{"which look like 0 to 255; divide by 255"};
+};
+
+/// Neighbors on a surface differ in directions that its normal is at right angles to. Where most do not, positions and
+/// normals are of two spaces: world and camera.
+class SpaceCheck : public HitCheck {
+ public:
+  SpaceCheck(const SampleLayout& layout, std::vector<std::size_t> normal, std::vector<std::size_t> position)
+      : HitCheck(layout), normal_(std::move(normal)), position_(std::move(position)) {}
+
+  void tell(const Window& data_window, std::vector<InputNote>& notes) const override {
+    constexpr std::uint64_t fewest = 16;  // pairs that can prove something
+    if (pairs_ < fewest || wrong_.count * 2 <= pairs_) return;
+    wrong_.tell(
+        "positions P that do not lie on surfaces with the normals N, as if one were in camera space; write both in "
+        "world space",
+        data_window, notes);
+  }
+
+ private:
+  void add_hit(const float* record, std::size_t pixel) override {
+    const float* before = pixel == pixel_ ? before_ : nullptr;
+    before_ = record;
+    pixel_ = pixel;
+    if (before == nullptr) return;
+    const Vector n = vector_at(record, normal_), p = vector_at(record, position_), q = vector_at(before, position_);
+    const Vector step{p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+    const double square = dot(step, step);
+    // Also false where something is not finite.
+    if (!(is_unit(n) && dot(n, vector_at(before, normal_)) > near_parallel && square > 1e-8 * dot(p, p))) return;
+    ++pairs_;
+    const double across = dot(n, step);
+    if (across * across > off_surface * off_surface * square) wrong_.add(pixel);
+  }
+
+  std::vector<std::size_t> normal_, position_;
+  const float* before_ = nullptr;
+  std::size_t pixel_ = 0;
+  std::uint64_t pairs_ = 0;
+  Tally wrong_;
+};
+
+}  // namespace
+
+void add_surface_checks(const SampleBuffer& samples, ConventionChecks& checks) {
+  const SampleLayout& layout = samples.layout;
+  for (const std::string group : {"N", "Ns", "Ng", "N2"})
+    if (auto columns = columns_of(layout, "feature." + group, "XYZ"); !columns.empty())
+      checks.push_back(std::make_unique<NormalCheck>(layout, group, std::move(columns)));
+  for (const std::string group : {"albedo", "albedo2"})
+    if (auto columns = columns_of(layout, "feature." + group, "RGB"); !columns.empty())
+      checks.push_back(std::make_unique<AlbedoCheck>(layout, group, std::move(columns)));
+  auto normal = columns_of(layout, "feature.N", "XYZ"), position = columns_of(layout, "feature.P", "XYZ");
+  if (!normal.empty() && !position.empty())
+    checks.push_back(std::make_unique<SpaceCheck>(layout, std::move(normal), std::move(position)));
+}
+
+}  // namespace rpf
