@@ -18,7 +18,8 @@ namespace rpf::cli {
 namespace {
 
 [[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& expected) {
-  throw Error(ErrorKind::usage, fmt::format("{} {}: {}", option, value, expected));
+  constexpr std::size_t shown = 40;
+  throw Error(ErrorKind::usage, fmt::format("{} {}: {}", option, value.substr(0, shown), expected));
 }
 
 std::vector<std::string> split(const std::string& text) {

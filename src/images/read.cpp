@@ -28,18 +28,19 @@ std::string part_name(const oiio::ImageSpec& spec) {
   return name.empty() ? std::string(spec.get_string_attribute("name")) : name;
 }
 
-// Parts of an EXR file, pages of a TIFF, frames of a GIF: all but one would be lost.
-void check_parts(const std::string& path, oiio::ImageInput& input) {
-  if (input.spec().depth > 1) reject(path, "is a volume, but an image is needed; write a slice of it as a file");
-  if (!input.seek_subimage(1, 0)) {
-    (void)input.geterror();  // there is no second one, which is well
-    if (!input.seek_subimage(0, 0)) reject(path, "cannot be read as an image; copy it again");
+// Parts of an EXR file, pages of a TIFF, frames of a GIF: all but one would be lost. On an input of its own: not every
+// format finds the way back to its first image.
+void check_parts(const std::string& path) {
+  const auto input = oiio::ImageInput::open(path);
+  if (!input) return;  // the caller's own opening says why
+  if (input->spec().depth > 1) reject(path, "is a volume, but an image is needed; write a slice of it as a file");
+  const std::string first = part_name(input->spec());
+  if (!input->seek_subimage(1, 0)) {
+    (void)input->geterror();  // there is no second one, which is well
     return;
   }
-  const int count = input.spec().get_int_attribute("oiio:subimages");
-  const std::string second = part_name(input.spec());
-  input.seek_subimage(0, 0);
-  const std::string first = part_name(input.spec());
+  const int count = input->spec().get_int_attribute("oiio:subimages");
+  const std::string second = part_name(input->spec());
   const std::string names = first.empty() || second.empty() ? "" : fmt::format(" (\"{}\", \"{}\", ...)", first, second);
   reject(path,
          fmt::format("holds {} images{}, but one is needed, or the others would be lost; write each as a file, with "
@@ -56,7 +57,7 @@ std::unique_ptr<oiio::ImageInput> open_image(const std::string& path) {
   if (!input)
     reject(path, fmt::format("cannot be read as an image ({}); use .exr, .tif, .hdr, .png or another image format",
                              first_line(oiio::geterror())));
-  check_parts(path, *input);
+  check_parts(path);
   if (input->spec().deep) reject(path, "is a deep file, but a flat image is needed; filter the samples first");
   return input;
 }

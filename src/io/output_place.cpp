@@ -79,8 +79,10 @@ bool OutputPlace::is_same(const OutputPlace& other) const {
   // Two names of a file with one link: its folder takes capital and small letters for the same.
   if (old && other.old && is_one_file(*old, *other.old) && old->st_nlink == 1) return true;
   const auto folder = status_of(folder_of(path)), others = status_of(folder_of(other.path));
-  return folder && others && is_one_file(*folder, *others) &&
-         fs::path(path).filename() == fs::path(other.path).filename();
+  if (folder && others)
+    return is_one_file(*folder, *others) && fs::path(path).filename() == fs::path(other.path).filename();
+  std::error_code unknown;  // in folders that are still to be made
+  return fs::weakly_canonical(path, unknown) == fs::weakly_canonical(other.path, unknown);
 }
 
 OutputPlace output_place(const std::string& target) {

@@ -250,13 +250,16 @@ TEST(ImageIo, WhatHasNoPlaceInAnImageIsNamed) {
   for (const char* channel : {"R", "G", "B", "left.R"}) header.channels().insert(channel, Imf::Channel(Imf::HALF));
   header.insert("timeCode", Imf::TimeCodeAttribute(Imf::TimeCode(1, 2, 3, 4)));
   header.insert("view", Imf::StringAttribute("right"));
-  { Imf::OutputFile file(folder.file("a.exr").c_str(), header); }
-  Image image;
-  try {
-    image = rpf::read_image(folder.file("a.exr"));
-  } catch (const rpf::Error&) {  // no pixels were written
-    GTEST_SKIP() << "OpenImageIO reads no file without pixels";
+  std::vector<half> pixels(16, half(0.5F));
+  Imf::FrameBuffer frame;
+  for (const char* channel : {"R", "G", "B", "left.R"})
+    frame.insert(channel, Imf::Slice(Imf::HALF, reinterpret_cast<char*>(pixels.data()), 2, 8));
+  {
+    Imf::OutputFile file(folder.file("a.exr").c_str(), header);
+    file.setFrameBuffer(frame);
+    file.writePixels(4);
   }
+  const Image image = rpf::read_image(folder.file("a.exr"));
   EXPECT_EQ(image.view, "right");
   EXPECT_EQ(image.half_channels.size(), 4U);
   ASSERT_EQ(image.dropped.size(), 1U);

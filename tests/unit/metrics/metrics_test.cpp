@@ -62,10 +62,9 @@ TEST(CompareImages, EqualImagesAreBestInEveryMetric) {
 }
 
 TEST(CompareImages, FindsTheLargestDifferenceOfEachChannel) {
-  const Image a = two_pixels({1, 2, 3, 4, 5, 6});
+  Image a = two_pixels({1, 2, 3, 4, 5, 6});
   Image b = two_pixels({1, 9, 3, 4, 6, 4});
-  b.data_window.x = -7;
-  b.data_window.y = 3;
+  a.data_window = b.data_window = {-7, 3, 2, 1};
   const auto largest = compare_images(a, b).largest;
   const double differences[3] = {0, 7, 2};
   const int columns[3] = {-7, -7, -6};
