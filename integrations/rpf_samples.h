@@ -81,6 +81,7 @@ static inline void rpf_samples_free(rpf_samples* file);
  * -------- */
 
 enum {
+  rpf_raw_host_bytes = 80,        /* of a machine in a hidden name */
   rpf_raw_bands = 4096,           /* at most; so many blocks can be in memory */
   rpf_raw_band_pixels = 1024,     /* at least; less would write too short stretches */
   rpf_raw_block_bytes = 1 << 14,  /* bands * block: 64 MB */
@@ -298,15 +299,37 @@ static inline int rpf_raw_read(int descriptor, void* data, size_t size, off_t po
   return 0;
 }
 
+/* This machine, as rpf writes it into hidden names: its name, and a part of the number that its kernel drew at its
+ * start. */
+static inline void rpf_raw_host(char text[rpf_raw_host_bytes]) {
+  char start[9] = "";
+  char name[65] = "";
+  char* letter;
+  FILE* boot = fopen("/proc/sys/kernel/random/boot_id", "r");
+  gethostname(name, sizeof name - 1);
+  if (boot != NULL) {
+    if (fgets(start, sizeof start, boot) == NULL) start[0] = 0;
+    fclose(boot);
+  }
+  snprintf(text, rpf_raw_host_bytes, "%s_%s", name, start);
+  for (letter = text; *letter != 0; ++letter)
+    if (!((*letter >= '0' && *letter <= '9') || (*letter >= 'A' && *letter <= 'Z') ||
+          (*letter >= 'a' && *letter <= 'z') || *letter == '-'))
+      *letter = '_';
+}
+
 /* Makes a hidden file beside the target. Named and locked as rpf's own are, so that rpf removes what a killed renderer
- * left, and nothing that is being written. `name` must hold the target's length + 64. Returns the descriptor. */
+ * left, and nothing that is being written. `name` must hold the target's length + 64 +
+ * rpf_raw_host_bytes. Returns the descriptor. */
 static inline int rpf_raw_make_file(const char* place, char* name, size_t name_size) {
   const char* slash = strrchr(place, '/');
   const char* extension = strrchr(slash != NULL ? slash : place, '.');
   const int folder = slash != NULL ? (int)(slash - place) + 1 : 0;
+  char host[rpf_raw_host_bytes];
+  rpf_raw_host(host);
   for (int number = 0;; ++number) {
     struct stat opened, named;
-    snprintf(name, name_size, "%.*s.rpf-%ld-%d%s", folder, place, (long)getpid(), number,
+    snprintf(name, name_size, "%.*s.rpf-%s-%ld-%d%s", folder, place, host, (long)getpid(), number,
              extension != NULL ? extension : "");
     const int descriptor = open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno != EEXIST) return -1;
@@ -329,7 +352,7 @@ static inline int rpf_raw_make_files(rpf_samples* file) {
     return rpf_raw_fail(file, RPF_SAMPLES_OUTPUT,
                         "\"%s\" is a folder or a device, but samples need a regular file; give the name of a file",
                         file->path);
-  const size_t size = strlen(file->place) + 64;
+  const size_t size = strlen(file->place) + 64 + rpf_raw_host_bytes;
   file->temporary = (char*)malloc(size);
   if (file->temporary == NULL) return rpf_raw_no_memory(file);
   file->spool = rpf_raw_make_file(file->place, file->temporary, size);

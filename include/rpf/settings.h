@@ -25,9 +25,9 @@ enum class Profile {
 /// baselines, whose weights are fixed: neighbors are all samples in the box, and none is drawn, rejected or measured;
 /// and the learned estimator (docs/network.md).
 enum class Method {
-  rpf,             ///< from what colors and features say about the random parameters
-  gaussian,        ///< from the distance on the film
-  bilateral,       ///< and from the difference in color
+  rpf,              ///< from what colors and features say about the random parameters
+  gaussian,         ///< from the distance on the film
+  bilateral,        ///< and from the difference in color
   cross_bilateral,  ///< and from the differences in features: what RPF would be without its statistics
   learned           ///< from a network that looks at every sample
 };

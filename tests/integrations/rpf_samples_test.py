@@ -96,7 +96,7 @@ class SampleHeaderTest(unittest.TestCase):
         self.assertEqual(self.path.read_bytes(), OLD)
         left = [entry for entry in self.folder.iterdir() if entry != self.path]
         self.assertLessEqual(len(left), 1)  # the next result of rpf in this folder removes it
-        self.assertTrue(all(re.fullmatch(r"\.rpf-\d+-\d+\.rpf", entry.name) for entry in left), left)
+        self.assertTrue(all(re.fullmatch(r"\.rpf-[\w-]+-\d+-\d+\.rpf", entry.name) for entry in left), left)
 
     def test_memory_is_bounded(self):
         # In between a process without numpy: a child's peak begins with its parent's memory.

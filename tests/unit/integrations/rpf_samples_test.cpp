@@ -1,7 +1,10 @@
 // The header for renderers: whatever the order, the file is what docs/file-format.md describes, or there is none.
 #include "rpf_samples.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -227,6 +230,20 @@ TEST(SampleHeader, ReplacesTheOldFileWhenItIsFinishedAndNotBefore) {
 
 // Whoever writes into a folder removes what killed processes left there: what a renderer is writing must not look like
 // that.
+pid_t ended_process() {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ::waitpid(child, nullptr, 0);
+  return child;
+}
+
+/// A hidden file of this process, as another one would have named it.
+std::string named_by(pid_t process, const std::filesystem::path& hidden) {
+  std::string name = hidden.filename().string();
+  const std::string mine = fmt::format("-{}-", ::getpid());
+  return hidden.parent_path() / name.replace(name.find(mine), mine.size(), fmt::format("-{}-", process));
+}
+
 TEST(SampleHeader, WritesOnWhileRpfCleansUpBesideIt) {
   const TemporaryFolder folder;
   const Frame frame = make_frame(0, 0, 2, 2, 1);
@@ -235,7 +252,7 @@ TEST(SampleHeader, WritesOnWhileRpfCleansUpBesideIt) {
   { const rpf::io::AtomicFile image(folder.file("image.exr")); }
   for (std::size_t pixel = 0; pixel < 4; ++pixel) add_pixel(file, frame, pixel);
   expect_finished(file, folder, expected_bytes(frame));
-  write_bytes(hidden.string(), "left by a killed renderer");
+  write_bytes(named_by(ended_process(), hidden), "left by a killed renderer");
   { const rpf::io::AtomicFile image(folder.file("image.exr")); }
   EXPECT_EQ(folder.entry_count(), 1U);
 }
