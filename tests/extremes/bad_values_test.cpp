@@ -47,7 +47,8 @@ RC_GTEST_PROP(BadColor, CostsItsSampleAndNothingElse, ()) {
   const InputNote note = note_of(result, "samples left out: R, G or B not finite");
   RC_ASSERT(note.count == 1U);
   RC_ASSERT(note.y * 24 + note.x == pixel);
-  RC_ASSERT(difference(result.image.pixels, filtered(without(good, sample), settings), 24) == "");
+  const bool is_filled = good.first_sample[pixel + 1] - good.first_sample[pixel] == 1;  // from its neighbors
+  RC_ASSERT(is_filled || difference(result.image.pixels, filtered(without(good, sample), settings), 24) == "");
   RC_ASSERT(difference_beyond_reach(result.image.pixels, filtered(good, settings), 24, pixel) == "");
 }
 
@@ -111,6 +112,7 @@ TEST(BadAlpha, IsZeroAndCounted) {
 TEST(Notes, AreInTheImagesAttributesWithCountAndFirstPlace) {
   SampleBuffer samples = defocused_edge({24, 16, 4, 1});
   samples.data_window.x = -7;
+  for (std::uint32_t i = 0; i < samples.sample_count(); ++i) value_of(samples, i, "film.X") -= 7;
   value_of(samples, 41, "R") = missing;
   value_of(samples, 44, "G") = infinity;
   value_of(samples, 97, "B") = -1;

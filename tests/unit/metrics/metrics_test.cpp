@@ -106,8 +106,9 @@ TEST(TrimmedRelmse, LeavesOutNothingBelowAThousandPixels) {
 
 TEST(RelativeErrorMap, IsTheErrorOfEachPixelWhereTheReferenceStands) {
   Image reference = two_pixels({1, 2, 3, 4, 5, 8});
-  reference.data_window.x = 9;
-  const Image map = relative_error_map(two_pixels({1, 2, 4, 4, 5, 6}), reference);
+  Image image = two_pixels({1, 2, 4, 4, 5, 6});
+  reference.data_window.x = image.data_window.x = 9;
+  const Image map = relative_error_map(image, reference);
   EXPECT_EQ(map.channels, std::vector<std::string>{"relMSE"});
   EXPECT_EQ(map.data_window, reference.data_window);
   EXPECT_FLOAT_EQ(map.pixels[0], 1 / 9.01F / 3);
