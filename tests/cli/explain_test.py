@@ -92,7 +92,7 @@ class ExplainTest(CommandCase):
         self.expect(run("explain", self.samples, "-o", self.folder / "none" / "deeper"), 4)
         self.expect_nothing_written()
         blocked.write_text("")
-        self.expect(run("explain", self.samples, "-o", blocked), 4, "is a file")
+        self.expect(run("explain", self.samples, "-o", blocked), 4, "Not a directory")
 
     def test_a_signal_stops_it_and_leaves_nothing(self):
         process = subprocess.Popen([RPF, "explain", EXAMPLE, "-o", self.output, "--box", "55", "--progress", "always"],
