@@ -25,6 +25,7 @@ constexpr int explained_box = 21;
 void check(const Settings& settings) {
   validate(settings);
   const auto refuse = [](const std::string& what) { throw Error(ErrorKind::usage, "explain: " + what); };
+  if (settings.method != Method::rpf) refuse("only --method rpf measures what is explained");
   if (settings.box_widths.size() != 1)
     refuse(
         fmt::format("{} box widths; exactly one is expected, that of the pass to explain", settings.box_widths.size()));

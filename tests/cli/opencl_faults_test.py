@@ -96,7 +96,7 @@ class OpenClFaults(unittest.TestCase):
         self.expect_same_bits()
 
     def test_a_kernel_that_does_not_compile(self):
-        broken = {"POCL_EXTRA_BUILD_FLAGS": "-Werror -DRPF_INLINE=nonsense"}
+        broken = {"POCL_EXTRA_BUILD_FLAGS": "-D__kernel=nonsense"}
         self.expect(self.filter("opencl", **broken), 5, "compiling", "failed", "--backend=cpu")
         self.assertFalse(self.output.exists())
         self.expect(self.filter("auto", **broken), 0)

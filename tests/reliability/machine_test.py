@@ -184,7 +184,7 @@ class MachineTest(unittest.TestCase):
         self.expect(run("scene", "dof", "--size", "8x6", "--spp", "200000", "--density", picture, "-o", samples, "-q"), 0)
         for backend in ("cpu", "opencl"):
             for number in (signal.SIGTERM, signal.SIGINT):
-                process = subprocess.Popen(command(samples, "-o", self.output, "--backend", backend, "--preset", "fast"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                process = subprocess.Popen(command(samples, "-o", self.output, "--backend", backend, "--profile", "paper"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
                 time.sleep(4)
                 self.assertIsNone(process.poll())
                 start = time.monotonic()

@@ -196,6 +196,11 @@ TEST(Explain, SaysWhatItCannotExplain) {
   EXPECT_EQ(kind(two_passes, {}), ErrorKind::usage);
   EXPECT_EQ(kind(cropped, {}), ErrorKind::usage);
   EXPECT_EQ(kind(shared, {}), ErrorKind::usage);
+  for (const Method method : {Method::cross_bilateral, Method::learned}) {
+    Settings other = explain_settings();
+    other.method = method;
+    EXPECT_EQ(kind(other, {}), ErrorKind::usage);
+  }
   EXPECT_EQ(kind(explain_settings(), PixelPosition{13, 0}), ErrorKind::usage);
   EXPECT_EQ(kind(small, {}), ErrorKind::memory);
 }
