@@ -1,4 +1,4 @@
-// The learned estimator (docs/network.md): entry points and what the generated layers (src/opencl/network_kernels.cpp)
+// The learned estimator (docs/network.md): entry points and what the generated layers (src/opencl/layer_blocking.cpp)
 // call. A step of src/opencl/estimate_steps.cpp each.
 #include "rpf_network.h"
 

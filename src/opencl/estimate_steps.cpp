@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "network_launch.h"
-#include "opencl/network_kernels.h"
+#include "opencl/layer_blocking.h"
 
 namespace rpf {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "learned/estimate_plan.h"
-#include "opencl/network_kernels.h"
+#include "opencl/layer_blocking.h"
 #include "opencl/session.h"
 
 namespace rpf {

@@ -10,7 +10,7 @@ NEIGHBORHOOD, STATISTICS = "kernels/neighborhood.cl", "kernels/statistics.cl"
 COORDINATES = "kernels/coordinates.cl"
 WEIGHTING, FILTER = "kernels/weighting.cl", "kernels/filter.cl"
 SAMPLES, PASSES, NETWORK = "kernels/network_samples.cl", "kernels/network_passes.cl", "kernels/network.cl"
-LAYERS, STEPS = "src/opencl/network_kernels.cpp", "src/opencl/estimate_steps.cpp"
+LAYERS, STEPS = "src/opencl/layer_blocking.cpp", "src/opencl/estimate_steps.cpp"
 LEARNED = "conformance learned/scene/dof "
 DOF, PAPER = "conformance scene/dof/thesis ", "conformance scene/dof/paper "
 

@@ -1,4 +1,4 @@
-#include "opencl/network_kernels.h"
+#include "opencl/layer_blocking.h"
 
 #include <fmt/format.h>
 
