@@ -57,9 +57,17 @@ def sample_inputs(samples, base):
     part = lambda name: samples[SAMPLE[name]]
     color = part("color").clamp(min=0)
     miss = 1 - part("hit")
-    return torch.cat([log1p4(color), torch.log1p(2 * color / base) / 2, part("normal"), part("albedo"), part("position"), miss,
-                      part("normal2"), torch.log1p(4 * part("distance2")), part("hit2"), part("lens"), part("time"),
-                      part("film"), part("light"), part("bsdf")])
+    radiance = torch.cat([log1p4(color), torch.log1p(2 * color / base) / 2])
+    recorded = torch.cat([part("normal"), part("albedo"), part("position"), miss, part("normal2"),
+                          torch.log1p(4 * part("distance2")), part("hit2"), part("lens"), part("time"), part("film"), part("light"),
+                          part("bsdf")])
+    return torch.cat([radiance, without_constants(recorded)])
+
+
+def without_constants(inputs):
+    """An input that comes out the same for every sample of the frame tells nothing, and is 0."""
+    varies = (inputs != inputs[:, :1, :1, :1]).flatten(1).any(1)
+    return inputs * varies[:, None, None, None]
 
 
 def variance(x):
