@@ -1,8 +1,9 @@
 """Trains one network. Resumable: all state is in --run, written every few minutes; stop it at any time.
 
 Usage: train.py --run DIR --frames CACHE --validation CACHE --hours H [--channels 24,40,64,80] [--sample-features 24] [--seed 1]
+                [--start CHECKPOINT]   (of a network that is as wide or narrower, widen.py)
 CACHE holds NAME.samples.npy ([27, n, y, x], frames.py) and NAME.ref.npy ([3, y, x]), exposed alike; it may grow during training.
-The learning rate follows the hours spent, so a run that is interrupted ends with the same schedule.
+The learning rate follows the hours spent (of one core), so a run that is interrupted ends with the same schedule.
 """
 import argparse
 import json
@@ -17,8 +18,12 @@ import torch.nn.functional as F
 
 from augment import augmented
 from estimator import Network
+from export import network_of
+from optimizer import Optimizer
+from widen import widen
 
-PEAK, FLOOR, WARM_UP = 1.5e-3, 1e-5, 100  # learning rates; steps
+PEAK, FLOOR, WARM_UP = 1e-3, 1e-5, 200  # learning rates; steps
+LONGEST_GRADIENT = 10  # of the logarithm of the loss
 AVERAGE = 0.998  # of the weights that are validated and exported: a mean over the latest 500 steps
 CHECKPOINT_SECONDS = 180
 HIGHEST_COUNT_VALIDATED = 4
@@ -33,6 +38,11 @@ def loss_of(result, reference):
         a, b = (F.avg_pool2d(x[None], min(width, *x.shape[1:]))[0] for x in (result, reference))
         loss = loss + share * ((a - b).abs() / (b + 0.05)).mean()
     return loss
+
+
+def of_equal_weight(loss):
+    """Frames are compared by the geometric mean of their errors: to halve a small one is worth as much as to halve a large one."""
+    return torch.log(loss + 0.003)
 
 
 def trimmed_error(result, reference):
@@ -62,8 +72,10 @@ class Run:
         self.folder.mkdir(parents=True, exist_ok=True)
         torch.manual_seed(args.seed)
         self.network = Network([int(c) for c in args.channels.split(",")], args.sample_features)
+        if args.start:
+            widen(network_of(torch.load(args.start, weights_only=False)), self.network)
         self.average = {k: v.clone() for k, v in self.network.state_dict().items()}
-        self.optimizer = torch.optim.Adam(self.network.parameters(), lr=PEAK, betas=(0.9, 0.99))
+        self.optimizer = Optimizer(self.network)
         self.step, self.seconds, self.recent = 0, 0.0, []
         self.rng = np.random.default_rng(args.seed)
         if (self.folder / "checkpoint.pt").exists():
@@ -93,8 +105,8 @@ class Run:
             group["lr"] = self.rate()
         loss = loss_of(self.network(samples, has_albedo), reference)
         self.optimizer.zero_grad(set_to_none=True)
-        loss.backward()
-        norm = torch.nn.utils.clip_grad_norm_(self.network.parameters(), 1.0)
+        of_equal_weight(loss).backward()
+        norm = torch.nn.utils.clip_grad_norm_(self.network.parameters(), LONGEST_GRADIENT)
         if torch.isfinite(norm):
             self.optimizer.step()
             decay = min(AVERAGE, self.step / (self.step + 10))
@@ -125,9 +137,9 @@ class Run:
         frames, validation = Frames(self.args.frames), Frames(self.args.validation)
         saved = time.monotonic()
         while self.seconds < self.args.hours * 3600:
-            start = time.monotonic()
+            start = time.process_time()
             self.train_step(frames)
-            self.seconds += time.monotonic() - start
+            self.seconds += time.process_time() - start
             if time.monotonic() - saved > CHECKPOINT_SECONDS or self.seconds >= self.args.hours * 3600:
                 self.save()
                 self.log(self.validate(validation), frames)
@@ -144,6 +156,7 @@ def main():
     parser.add_argument("--channels", default="24,40,64,80")
     parser.add_argument("--sample-features", type=int, default=24)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--start")
     parser.add_argument("--threads", type=int, default=1)
     args = parser.parse_args()
     torch.set_num_threads(args.threads)
