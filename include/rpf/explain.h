@@ -74,6 +74,26 @@ struct Explanation {
   Report report;
 };
 
+/// A sample in the picture of a network.
+struct Contribution {
+  PixelPosition pixel;         ///< that it belongs to
+  std::array<float, 3> color;  ///< radiance
+  float share = 0;             ///< of the pixel explained; all of them together have 1
+};
+
+/// Which samples a pixel of a preset's picture is made of (docs/network.md): its color is `factor` times the mean of
+/// theirs, weighted by their shares.
+struct ExplainedEstimate {
+  PixelPosition position;
+  std::string model;                        ///< the network's name
+  Window window;                            ///< the pixels that it can be made of, as the data window counts
+  std::vector<float> shares;                ///< [pixel of the window, row by row] of all its samples
+  std::vector<Contribution> samples;        ///< by falling share, without those of none
+  float effective_samples = 0;              ///< so many equal shares would average as much noise away
+  std::array<float, 3> factor = {1, 1, 1};  ///< the pixel's albedo over that of the samples, as far as the blend goes
+  std::array<float, 3> mean{}, result{};    ///< radiance: plain mean; in the preset's picture
+};
+
 /// What explain() is to be called with where nothing is wished otherwise: one pass, of box width 21 with M = b^2 s / 2.
 Settings explain_settings();
 
@@ -81,6 +101,9 @@ Settings explain_settings();
 /// shared statistics. `pixel`: also everything about this one, which has samples. Throws as filter() does.
 Explanation explain(SampleBuffer samples, const Settings& settings, const Control& control = {},
                     const std::optional<PixelPosition>& pixel = {});
+
+/// The same pixel in the picture of a preset: `settings` have Method::learned. Throws as filter() does.
+ExplainedEstimate explain_estimate(SampleBuffer samples, const Settings& settings, const PixelPosition& pixel);
 
 /// Peak bytes of reading and explaining, as predict_memory() of rpf/filter.h.
 std::uint64_t predict_explain_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings);

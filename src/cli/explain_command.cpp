@@ -16,6 +16,7 @@
 #include "rpf/error.h"
 #include "rpf/explain.h"
 #include "rpf/outputs.h"
+#include "rpf/presets.h"
 
 namespace rpf::cli {
 namespace {
@@ -23,8 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  FilterOptions filter;  ///< those that this command shares with filtering
-  std::string pixel;
+  FilterOptions filter;                    ///< those that this command shares with filtering
+  std::string pixel, preset = "balanced";  ///< whose picture of the pixel is explained
   int box = 0;
 };
 
@@ -55,10 +56,22 @@ void check_files(const Options& o) {
   check_outputs(outputs, {o.filter.input});
 }
 
-void write_pages(const Options& o, const Explanation& explanation) {
+/// Which samples the preset makes the pixel of; it is shown other channels than the published filter.
+ExplainedEstimate estimate_of(const Options& o, const Settings& published, const SampleFileInfo& info,
+                              const PixelPosition& pixel) {
+  Settings settings = preset_settings(o.preset);
+  settings.backend = published.backend;
+  settings.threads = published.threads;
+  settings.max_memory = published.max_memory;
+  SampleReadOptions read_options = read_options_of(o.filter.map, settings.max_memory);
+  read_options.slots = needed_layout(info, settings).slots;
+  return explain_estimate(read_samples(o.filter.input, read_options), settings, pixel);
+}
+
+void write_pages(const Options& o, const Explanation& explanation, const std::optional<ExplainedEstimate>& estimate) {
   const SignalGuard guard;  // a signal now waits until the files are whole
   make_folder(folder_of(o).string());
-  if (explanation.pixel) write_pixel_page(o.filter.output, o.filter.input, explanation);
+  if (estimate) write_pixel_page(o.filter.output, o.filter.input, explanation, *estimate);
   write_explanation(o.filter.output, o.filter.input, explanation);
 }
 
@@ -79,11 +92,13 @@ int run(const Options& o) {
              settings.max_memory);
   check_files(o);
   read_options.slots = needed_layout(info, settings).slots;
+  std::optional<ExplainedEstimate> estimate;
+  if (pixel) estimate = estimate_of(o, settings, info, *pixel);
   SampleBuffer samples = read_samples(o.filter.input, read_options);
   const Explanation explanation =
       with_progress(o.filter.quiet ? "never" : o.filter.progress,
                     [&](const Control& control) { return explain(std::move(samples), settings, control, pixel); });
-  write_pages(o, explanation);
+  write_pages(o, explanation, estimate);
   if (!o.filter.quiet) print_notes(explanation.report);
   if (!o.filter.quiet)
     print("{}: {} layers of {}x{} pixels in {:.1f} s\n", (fs::path(o.filter.output) / "index.html").string(),
@@ -103,6 +118,7 @@ Command add_explain_command(CLI::App& app) {
   command->add_option("-o,--output", options->filter.output, "Folder for explain.exr, pictures and index.html")
       ->type_name("DIR");
   command->add_option("--pixel", options->pixel, "Also a page with everything about this pixel")->type_name("X,Y");
+  add_preset_option(*command, options->preset);
   restrict_to(command->add_option("--box", options->box, "Box width of the pass that is explained"), ranges::box_width)
       ->default_str("21");
   add_map_option(*command, options->filter.map);

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "report/html_page.h"
 #include "rpf/explain.h"
 
 namespace rpf::cli {
@@ -11,7 +12,13 @@ namespace rpf::cli {
 /// is explained. Each file is whole or untouched; index.html comes last.
 void write_explanation(const std::string& folder, const std::string& input, const Explanation& explanation);
 
-/// Writes pixel-X-Y.html about Explanation::pixel, and its pictures into a folder pixel-X-Y. Returns the page's path.
-std::string write_pixel_page(const std::string& folder, const std::string& input, const Explanation& explanation);
+/// Writes pixel-X-Y.html about Explanation::pixel and what a preset makes of it, and the pictures into a folder
+/// pixel-X-Y. Returns the page's path.
+std::string write_pixel_page(const std::string& folder, const std::string& input, const Explanation& explanation,
+                             const ExplainedEstimate& estimate);
+
+/// The chapter of that page about the preset's picture: its pictures go into `folder`. `frame`: the plain mean.
+void add_estimate(const std::string& folder, const Image& frame, const ExplainedEstimate& estimate,
+                  report::HtmlPage& page);
 
 }  // namespace rpf::cli

@@ -99,8 +99,10 @@ Image with_dots(const Image& frame, const Window& box, const Image& map) {
 
 class PixelPage {
  public:
-  PixelPage(const std::string& folder, const std::string& input, const Explanation& explanation)
+  PixelPage(const std::string& folder, const std::string& input, const Explanation& explanation,
+            const ExplainedEstimate& estimate)
       : explanation_(explanation),
+        estimate_(estimate),
         pixel_(*explanation.pixel),
         name_(fmt::format("pixel-{}-{}", pixel_.position.x, pixel_.position.y)),
         folder_(folder),
@@ -112,6 +114,9 @@ class PixelPage {
 
   std::string write() {
     page_.link("index.html", "All maps");
+    add_estimate((fs::path(folder_) / name_).string(), part_of(explanation_.layers, "R", {"R", "G", "B"}), estimate_,
+                 page_);
+    page_.heading("What the published filter measures here");
     page_.table(summary());
     add_neighborhood();
     add_weights();
@@ -244,6 +249,7 @@ class PixelPage {
   }
 
   const Explanation& explanation_;
+  const ExplainedEstimate& estimate_;
   const ExplainedPixel& pixel_;
   std::string name_, folder_;
   report::HtmlPage page_;
@@ -251,8 +257,9 @@ class PixelPage {
 
 }  // namespace
 
-std::string write_pixel_page(const std::string& folder, const std::string& input, const Explanation& explanation) {
-  return PixelPage(folder, input, explanation).write();
+std::string write_pixel_page(const std::string& folder, const std::string& input, const Explanation& explanation,
+                             const ExplainedEstimate& estimate) {
+  return PixelPage(folder, input, explanation, estimate).write();
 }
 
 }  // namespace rpf::cli

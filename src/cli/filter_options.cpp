@@ -57,16 +57,6 @@ void add_file_options(CLI::App& app, FilterOptions& o) {
   add_map_option(app, o.map);
 }
 
-void add_preset_option(CLI::App& app, std::string& preset) {
-  std::vector<std::string> names;
-  std::string text = "Which network weighs the samples";
-  for (const PresetInfo& info : presets()) {
-    names.push_back(info.name);
-    text += fmt::format("\n{}: {}", info.name, info.purpose);
-  }
-  app.add_option("--preset", preset, text)->check(CLI::IsMember(names))->default_str("balanced");
-}
-
 void add_model_options(CLI::App& app, FilterOptions& o) {
   add_preset_option(app, o.preset);
   app.add_option("--model", o.settings.model, "The network of this file in place of a preset's")
@@ -162,6 +152,16 @@ std::string value_in(const std::vector<std::string>& arguments, const std::strin
 }
 
 }  // namespace
+
+void add_preset_option(CLI::App& app, std::string& preset) {
+  std::vector<std::string> names;
+  std::string text = "Which network weighs the samples";
+  for (const PresetInfo& info : presets()) {
+    names.push_back(info.name);
+    text += fmt::format("\n{}: {}", info.name, info.purpose);
+  }
+  app.add_option("--preset", preset, text)->check(CLI::IsMember(names))->default_str("balanced");
+}
 
 void add_map_option(CLI::App& app, std::vector<std::string>& map) {
   app.add_option("--map", map, "SLOT=CHANNEL: read a slot from a channel of another name; SLOT= leaves the slot out")

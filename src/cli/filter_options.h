@@ -29,6 +29,8 @@ struct FilterOptions {
 
 /// Which features and random parameters to model.
 void add_channel_options(CLI::App& app, FilterOptions& options);
+/// "--preset", one of those that there are.
+void add_preset_option(CLI::App& app, std::string& preset);
 /// Backend, threads, memory, what is told.
 void add_machine_options(CLI::App& app, FilterOptions& options);
 /// "--max-memory", shared by the commands that read; memory_limit() takes what it says.

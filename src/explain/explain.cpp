@@ -5,6 +5,7 @@
 #include "after/resolve.h"
 #include "explain/attribution.h"
 #include "explain/layers.h"
+#include "explain/pixel_number.h"
 #include "explain/traced_pixel.h"
 #include "frame/selection.h"
 #include "rpf/error.h"
@@ -31,18 +32,6 @@ void check(const Settings& settings) {
         fmt::format("{} box widths; exactly one is expected, that of the pass to explain", settings.box_widths.size()));
   if (settings.statistics_block != 1) refuse("statistics shared by a block of pixels; 1 is expected");
   if (settings.crop) refuse("a crop; the whole frame is explained");
-}
-
-std::uint32_t pixel_number(const PixelPosition& pixel, const SampleBuffer& samples) {
-  const Window& w = samples.data_window;
-  const std::int64_t x = std::int64_t{pixel.x} - w.x, y = std::int64_t{pixel.y} - w.y;
-  if (x < 0 || y < 0 || x >= w.width || y >= w.height)
-    throw Error(ErrorKind::usage,
-                fmt::format("--pixel {},{} is not inside the data window {}", pixel.x, pixel.y, text_of(w)));
-  const auto number = static_cast<std::uint32_t>(y * w.width + x);
-  if (samples.first_sample[number] == samples.first_sample[number + 1])
-    throw Error(ErrorKind::input, fmt::format("pixel {},{} has no samples; choose another", pixel.x, pixel.y));
-  return number;
 }
 
 /// Bytes beside those of filtering, each random parameter being a group of its own.

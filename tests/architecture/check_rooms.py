@@ -22,7 +22,7 @@ ROOMS = {
     "src/probe": "src/opencl",        # a program: asks drivers in a process of its own
     "src/after": "src/frame src/plan kernels",
     "src/run": "src/frame src/plan src/learned src/seam src/cpu src/opencl src/after kernels",
-    "src/explain": "src/frame src/plan src/seam src/after src/run kernels",
+    "src/explain": "src/frame src/plan src/learned src/seam src/after src/run kernels",
     "src/conformance": "src/frame src/learned src/seam src/cpu src/opencl src/after kernels",
     # beside the filter, sharing nothing with it but the public headers
     "src/io": "",

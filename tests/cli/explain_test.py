@@ -52,9 +52,15 @@ class ExplainTest(CommandCase):
         self.expect(self.explain("--pixel", "20,15"), 0)
         self.assertIn("pixel-20-15.html", (self.output / "index.html").read_text())
         page = (self.output / "pixel-20-15.html").read_text()
-        for text in ("neighbors N", "W_c^r", "alpha", "beta", "lens.U", "<svg", "times drawn"):
+        for text in ("neighbors N", "W_c^r", "alpha", "beta", "lens.U", "<svg", "times drawn", "in the picture of balanced",
+                     "effective samples", "albedo here"):
             self.assertIn(text, page)
         self.assertEqual(page.count("<img"), len(list((self.output / "pixel-20-15").glob("*.png"))))
+
+    def test_explains_the_picture_of_the_preset_that_is_asked_for(self):
+        self.expect(self.explain("--pixel", "20,15", "--preset", "fast", "-q"), 0)
+        self.assertIn("in the picture of fast", (self.output / "pixel-20-15.html").read_text())
+        self.expect(self.explain("--pixel", "20,15", "--preset", "slow"), 2, "slow")
 
     def test_the_density_is_one_to_render_with(self):
         self.expect(self.explain("-q"), 0)

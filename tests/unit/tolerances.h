@@ -19,6 +19,10 @@ constexpr double estimated_constant = 2e-6;
 /// magnitude within reach.
 constexpr double estimated_bound = 2e-5;
 
+/// A pixel of a network's picture against the mean of its samples by the shares that are told: shares are floats, and the
+/// passes rounded each of four means of 25 once more.
+constexpr double remade_pixel = 1e-5;
+
 /// Entries of the offset table per offset against the exact Gaussian: each side is rounded to whole entries.
 constexpr double offset_entries = 0.5;
 /// ... and the center takes up what rounding left over on both sides, half an entry for each of up to 254 offsets.

@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <numeric>
+
+#include "after/resolve.h"
+#include "explain/contributions.h"
+#include "explain/pixel_number.h"
+#include "frame/prepare.h"
+#include "learned/network_file.h"
+#include "learned/observe.h"
+#include "rpf/error.h"
+#include "rpf/explain.h"
+#include "run/backends.h"
+
+namespace rpf {
+namespace {
+
+/// One pixel's estimate, from a frame that is only prepared.
+class Estimated {
+ public:
+  Estimated(SampleBuffer samples, const Settings& settings, const PixelPosition& position)
+      : data_window_(samples.data_window), number_(pixel_number(position, samples)), backend_(make_backend(settings)) {
+    result_.position = position;
+    prepared_ = prepare(std::move(samples), settings);
+    plan_ = observe(prepared_, find_network(settings.model));
+    result_.model = plan_.network->name;
+  }
+
+  ExplainedEstimate explain() {
+    const int x = static_cast<int>(number_) % plan_.width, y = static_cast<int>(number_) / plan_.width;
+    const Window region = region_of_shares(plan_, x, y), window = window_around(plan_, region);
+    backend_->load_estimate(prepared_.frame, prepared_.colors, plan_);
+    const std::vector<EstimateStage> stages = backend_->trace_estimate(region);
+    const PixelShares shares = pixel_shares(plan_, stages, window, counts(window), x, y);
+    for (int row = region.y; row < region.y + region.height; ++row)
+      for (int column = region.x; column < region.x + region.width; ++column)
+        result_.shares.push_back(static_cast<float>(shares.pixels[place(window, column, row)]));
+    result_.window = {region.x + data_window_.x, region.y + data_window_.y, region.width, region.height};
+    std::copy(shares.factor.begin(), shares.factor.end(), result_.factor.begin());
+    list_samples(shares);
+    const float* color = stages.back().values.data() + place(window, x, y) * stages.back().channels;
+    const std::vector<float> means = resolve(prepared_.frame, prepared_.colors, plan_.carried);
+    for (std::size_t c = 0; c < 3; ++c) {
+      result_.result.at(c) = radiance(color[c]);
+      result_.mean.at(c) = radiance(means[number_ * plan_.carried + c]);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  static std::size_t place(const Window& window, int x, int y) {
+    return static_cast<std::size_t>(y - window.y) * static_cast<std::size_t>(window.width) +
+           static_cast<std::size_t>(x - window.x);
+  }
+  std::uint32_t number(int x, int y) const { return static_cast<std::uint32_t>(y * plan_.width + x); }
+  float radiance(float scaled) const { return scaled / prepared_.facts.radiance_scale; }
+
+  std::vector<std::uint32_t> counts(const Window& window) const {
+    std::vector<std::uint32_t> all;
+    for (int y = window.y; y < window.y + window.height; ++y)
+      for (int x = window.x; x < window.x + window.width; ++x) all.push_back(prepared_.frame.samples(number(x, y)));
+    return all;
+  }
+
+  void list_samples(const PixelShares& shares) {
+    const Window& window = shares.window;
+    auto within = shares.within_pixels.begin();
+    double squares = 0;
+    for (int y = window.y; y < window.y + window.height; ++y)
+      for (int x = window.x; x < window.x + window.width; ++x) {
+        const std::uint32_t first = prepared_.frame.first_sample[number(x, y)];
+        for (std::uint32_t i = 0; i < prepared_.frame.samples(number(x, y)); ++i, ++within) {
+          const double share = *within * shares.pixels[place(window, x, y)];
+          if (share <= 0) continue;
+          const float* color = prepared_.colors.data() + (first + i) * plan_.carried;
+          result_.samples.push_back({{x + data_window_.x, y + data_window_.y},
+                                     {radiance(color[0]), radiance(color[1]), radiance(color[2])},
+                                     static_cast<float>(share)});
+          squares += share * share;
+        }
+      }
+    std::stable_sort(result_.samples.begin(), result_.samples.end(),
+                     [](const Contribution& a, const Contribution& b) { return a.share > b.share; });
+    if (squares > 0) result_.effective_samples = static_cast<float>(1 / squares);
+  }
+
+  Window data_window_;
+  std::uint32_t number_;
+  PreparedFrame prepared_;
+  EstimatePlan plan_;
+  std::unique_ptr<Backend> backend_;  ///< refers to frame and plan
+  ExplainedEstimate result_;
+};
+
+}  // namespace
+
+ExplainedEstimate explain_estimate(SampleBuffer samples, const Settings& settings, const PixelPosition& pixel) {
+  samples.validate();
+  validate(settings);
+  if (settings.method != Method::learned)
+    throw Error(ErrorKind::usage, "explain_estimate: settings of a preset are expected (Method::learned)");
+  return Estimated(std::move(samples), settings, pixel).explain();
+}
+
+}  // namespace rpf
