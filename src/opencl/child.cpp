@@ -1,5 +1,6 @@
 #include "opencl/child.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -27,11 +28,15 @@ using Clock = std::chrono::steady_clock;
 /// What a driver may take to clean up after a whole answer.
 constexpr auto to_end = std::chrono::seconds(1);
 
-/// Beside the program, or where it was built.
+/// Beside the program, beside the shared object that this code is in (Python's module), or where it was built.
 std::string helper() {
   std::error_code failed;
   const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-  for (const fs::path& path : {program.parent_path() / RPF_PROBE_NAME, fs::path(RPF_PROBE_FILE)})
+  Dl_info object{};
+  ::dladdr(RPF_PROBE_NAME, &object);
+  const fs::path library = object.dli_fname == nullptr ? "" : object.dli_fname;
+  for (const fs::path& path :
+       {program.parent_path() / RPF_PROBE_NAME, library.parent_path() / RPF_PROBE_NAME, fs::path(RPF_PROBE_FILE)})
     if (::access(path.c_str(), X_OK) == 0) return path.string();
   throw Error(ErrorKind::device, "OpenCL drivers are asked by " RPF_PROBE_NAME
                                  ", which is not beside the program; put it there, or use --backend=cpu");

@@ -37,15 +37,16 @@ ROOMS = {
     # copied into renderers: one file that knows nothing of this house
     "integrations": "",
     "examples": "integrations",
+    "python": "",                     # the package: the public API, as Python sees it
     "bench": "src/frame src/plan src/cpu src/opencl src/bench kernels",
 }
 ROOMS = {room: {API, *targets.split()} for room, targets in ROOMS.items()}
 ROOMS["kernels"] = ROOMS[API] = ROOMS["integrations"] = set()
-ROOMS["tests"] = set(ROOMS) - {"src/images", "src/cli", "examples", "bench"}
+ROOMS["tests"] = set(ROOMS) - {"src/images", "src/cli", "examples", "bench", "python"}
 # Third-party headers, each in one room only (beside the tests).
 LIBRARIES = {
     "OpenEXR/": {"src/io"}, "Imf": {"src/io"}, "libdeflate": {"src/io"}, "OpenImageIO/": {"src/images"}, "CL/": {"src/opencl"}, "CLI/": {"src/cli"},
-    "embree3/": {"src/scene"}, "tbb/": {"src/after", "src/cpu", "src/explain", "src/scene"}, "benchmark/": {"bench"},
+    "embree3/": {"src/scene"}, "nanobind/": {"python"}, "tbb/": {"src/after", "src/cpu", "src/explain", "src/scene"}, "benchmark/": {"bench"},
     "fmt/": {"src/frame", "src/plan", "src/learned", "src/run", "src/opencl", "src/conformance", "src/explain", "src/io", "src/images", "src/metrics", "src/scene", "src/cli", "src/bench", "src/report", "src/study"},
     "nlohmann/": {"src/learned", "src/cli", "src/io", "src/conformance", "src/bench", "src/study"},  # what is printed as JSON; the header of raw sample files
 }
@@ -119,7 +120,7 @@ def check_folders():
 
 
 def sources():
-    for folder in ("include", "kernels", "integrations", "src", "tests", "bench", "examples"):
+    for folder in ("include", "kernels", "integrations", "src", "tests", "bench", "examples", "python"):
         for file in sorted((PROJECT / folder).rglob("*")):
             if file.suffix in (".h", ".c", ".cpp", ".cl", ".py"):
                 yield file
