@@ -5,7 +5,9 @@ import pytest
 mi = pytest.importorskip("mitsuba")
 import drjit as dr  # noqa: E402
 
-from rpf.mitsuba import render_reference, render_samples, select_variant, write_samples  # noqa: E402
+from rpf.mitsuba import render_reference, render_samples, render_to_file, select_variant, write_samples  # noqa: E402
+from rpf import errors as rpf_errors  # noqa: E402
+from rpf.mitsuba.__main__ import main  # noqa: E402
 
 select_variant()
 
@@ -65,7 +67,7 @@ def test_other_integrators():
 def test_integrators_without_single_rays_are_refused(kind):
     scene = cornell_box()
     scene["integrator"] = {"type": kind}
-    with pytest.raises(ValueError, match="gives no radiance for single rays"):
+    with pytest.raises(rpf_errors.InputError, match="gives no radiance for single rays"):
         render_samples(mi.load_dict(scene), 4)
 
 
@@ -119,3 +121,103 @@ def test_file_is_read_by_the_code_of_the_document(tmp_path):
     assert header["dataWindow"] == [0, 0, 33, 20] and (counts == 4).all()
     assert all(np.array_equal(channels[name], samples.channels[name], equal_nan=True) for name in samples.channels)
     assert [p.name for p in tmp_path.iterdir()] == ["a.rpf"]
+
+
+# ---- the command ----------------------------------------------------------------------------------------------------------
+
+LOOK = '<transform name="to_world"><lookat origin="0 2 6" target="0 0.7 0" up="0 1 0"/></transform>'
+AREA = """<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="90"/><translate y="5"/></transform>
+          <emitter type="area"><rgb name="radiance" value="12"/></emitter></shape>"""
+
+
+def write_scene(name, folder, rfilter="box"):
+    """One of six scenes of Mitsuba's own plugins: a ball on a floor. -> its file"""
+    kind, camera, ball, floor, light = "perspective", "", '<bsdf type="diffuse"/>', '<rgb name="reflectance" value="0.6 0.5 0.4"/>', AREA
+    if name == "lens":
+        kind, camera = "thinlens", '<float name="aperture_radius" value="0.3"/><float name="focus_distance" value="5"/>'
+    if name == "shutter":  # open, and nothing moves: Mitsuba 3 has no moving cameras or shapes
+        camera = '<float name="shutter_open" value="0"/><float name="shutter_close" value="1"/>'
+    if name == "metal":
+        ball = '<bsdf type="roughconductor"><string name="material" value="Al"/><float name="alpha" value="0.2"/></bsdf>'
+    if name == "glass":
+        ball = '<bsdf type="dielectric"/>'
+    if name == "textured":
+        floor = '<texture name="reflectance" type="checkerboard"><transform name="to_uv"><scale value="8"/></transform></texture>'
+        sky = np.full((8, 16, 3), 0.5, np.float32)
+        sky[2, 3] = 20
+        mi.Bitmap(sky).write(str(folder / "sky.exr"))
+        light = f'<emitter type="envmap"><string name="filename" value="{folder}/sky.exr"/></emitter>'
+    (folder / "scene.xml").write_text(f"""<scene version="3.0.0">
+      <default name="integrator" value="path"/><integrator type="$integrator"/>
+      <sensor type="{kind}"><float name="fov" value="40"/>{LOOK}{camera}
+        <film type="hdrfilm"><integer name="width" value="48"/><integer name="height" value="32"/><rfilter type="{rfilter}"/></film>
+        <sampler type="independent"><integer name="sample_count" value="4"/></sampler></sensor>
+      <shape type="sphere"><point name="center" value="0 0.8 0"/><float name="radius" value="0.8"/>{ball}</shape>
+      <shape type="rectangle"><transform name="to_world"><scale value="6"/><rotate x="1" angle="-90"/></transform>
+        <bsdf type="diffuse">{floor}</bsdf></shape>
+      {light}</scene>""")
+    return str(folder / "scene.xml")
+
+
+SCENES = {"lens": [], "shutter": [], "metal": [], "textured": [], "glass": [], "crop": ["--crop", "17x11+20+8"]}
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("ending", ["rpf", "exr"])
+def test_command_writes_what_mitsuba_renders(tmp_path, name, ending):
+    rpf = pytest.importorskip("rpf", reason="not built")
+    pytest.importorskip("rpf._core", reason="the compiled part is not for this Python")
+    path = write_scene(name, tmp_path)
+    output = tmp_path / f"out.{ending}"
+    assert main([path, "-o", str(output), "--spp", "4", "--seed", "5", *SCENES[name]]) == 0
+    samples = rpf.read(output)
+    x, y, width, height = samples.window
+    scene = mi.load_file(path)
+    if name == "crop":
+        assert samples.window == (20, 8, 17, 11)
+        parameters = mi.traverse(scene.sensors()[0])
+        parameters["film.crop_size"], parameters["film.crop_offset"] = [17, 11], [20, 8]
+        parameters.update()
+    rendered = np.array(mi.render(scene, spp=4, seed=5))[..., :3]
+    mean = np.stack([samples[c].reshape(height, width, 4).mean(-1) for c in "RGB"], -1)
+    assert np.abs(mean - rendered).max() < MEAN_TOLERANCE * max(1, rendered.max()) and rendered.mean() > 0.01
+    assert ("random.lens.U" in samples.slots) == (name == "lens") and "random.time" not in samples.slots
+    assert samples.check() == []
+    assert not list(tmp_path.glob("*.part")) and len(list(tmp_path.glob("out*"))) == 1
+
+
+def test_rows_are_those_of_the_whole_frame(tmp_path):
+    scene = mi.load_dict(cornell_box())
+    render_to_file(tmp_path / "a.rpf", scene, 4, 3, block_bytes=4 * 33 * 4 * 27 * 7)  # 7 rows of 20
+    write_samples(tmp_path / "b.rpf", render_samples(scene, 4, 3))
+    assert (tmp_path / "a.rpf").read_bytes() == (tmp_path / "b.rpf").read_bytes()
+
+
+def test_command_filters(tmp_path):
+    rpf = pytest.importorskip("rpf")
+    pytest.importorskip("rpf._core")
+    names = [write_scene("lens", tmp_path), str(tmp_path / "out.exr"), str(tmp_path / "clean.exr")]
+    assert main([names[0], "-o", names[1], "--size", "40x24", "--filter", names[2], "--preset", "fast"]) == 0
+    assert np.array_equal(rpf.read_image(names[2]).pixels, rpf.filter(rpf.read(names[1]), "fast").pixels)
+
+
+@pytest.mark.parametrize("arguments, code, words", [
+    (["--crop", "40x40+30+0"], 2, "not inside the film"), (["--sensor", "3"], 2, "--sensor 3"), (["--filter", "a.png", "--preset", "best"], 2, "best"),
+    (["-D", "integrator=ptracer"], 3, "gives no radiance for single rays")])
+def test_command_refuses_before_it_renders(tmp_path, capsys, arguments, code, words):
+    pytest.importorskip("rpf._core")
+    assert main([write_scene("lens", tmp_path), "-o", str(tmp_path / "out.exr"), *arguments]) == code
+    assert words in capsys.readouterr().err
+    assert not list(tmp_path.glob("out*"))
+
+
+def test_film_with_another_filter_is_told(tmp_path, capsys):
+    assert main([write_scene("lens", tmp_path, "gaussian"), "-o", str(tmp_path / "out.rpf"), "--spp", "1"]) == 0
+    assert "no pixel filter" in capsys.readouterr().err
+
+
+def test_samples_become_records():
+    pytest.importorskip("rpf._core")
+    planes = render_samples(mi.load_dict(cornell_box()), 4)
+    records = planes.records()
+    assert records.window == planes.window and all(np.array_equal(records[name], planes.channels[name], equal_nan=True) for name in records.slots)

@@ -5,7 +5,7 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from rpf.mitsuba import Samples
+from rpf.mitsuba import SamplePlanes
 from rpf.mitsuba.wavefront import planes, trace
 from shapes import turn_about_y
 
@@ -44,7 +44,7 @@ def render_samples(scene, camera, objects, spp, seed):
         for name, values in traced.items():
             channels.setdefault(name, np.empty(total, np.float32))[lanes] = values
     metadata = {"rpf:seed": int(seed), "rpf:renderer": f"Mitsuba {mi.__version__}"}
-    return Samples((0, 0, width, height), np.full(width * height, spp, np.uint32), channels, metadata)
+    return SamplePlanes((0, 0, width, height), np.full(width * height, spp, np.uint32), channels, metadata)
 
 
 def render_reference(scene, camera, objects, spp, seed):

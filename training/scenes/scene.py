@@ -12,7 +12,7 @@ import views
 from builder import SceneBuilder
 from camera import make_camera
 from frames import exposure
-from rpf.mitsuba import Samples, render_reference, render_samples
+from rpf.mitsuba import SamplePlanes, render_reference, render_samples
 
 DEPTHS = {2: 0.1, 3: 0.2, 5: 0.4, 7: 0.3}  # 2: direct light only; each has kernels of its own
 DEEP = 7
@@ -66,7 +66,7 @@ class RandomScene:
                           float(max((np.linalg.norm(velocity) for _, velocity, _ in self.moving), default=0)))
 
     def render(self):
-        """-> Samples, reference [y, x, 3]"""
+        """-> SamplePlanes, reference [y, x, 3]"""
         options = self.options
         moving = motion.MovingObjects(self.scene, self.builder.meshes, self.moving)
         if self.moving:
@@ -103,11 +103,11 @@ def as_samples(image):
     height, width = image.shape[:2]
     y, x = np.mgrid[:height, :width] + 0.5
     channels = {name: np.float32(plane).ravel() for name, plane in zip("RGB", np.moveaxis(image, -1, 0))}
-    return Samples((0, 0, width, height), np.ones(width * height, np.uint32), channels | {"film.X": x.ravel(), "film.Y": y.ravel()})
+    return SamplePlanes((0, 0, width, height), np.ones(width * height, np.uint32), channels | {"film.X": x.ravel(), "film.Y": y.ravel()})
 
 
 def make_scene(seed, options, attempts):
-    """-> samples, reference, both Samples. Raises RuntimeError if no attempt gives a good picture."""
+    """-> samples, reference, both SamplePlanes. Raises RuntimeError if no attempt gives a good picture."""
     faults = []
     for attempt in range(attempts):
         made = None

@@ -1,13 +1,20 @@
-"""Renders a Mitsuba scene and writes every sample to a raw sample file.
+"""Renders a Mitsuba scene, writes every sample to a file, and filters them if --filter says so.
 
-Usage: python -m rpf.mitsuba scene.xml -o samples.rpf [--spp 8] [--size 640x360] [--seed 0] [--sensor 0] [-D NAME=VALUE]...
+Example: python -m rpf.mitsuba scene.xml -o samples.exr --spp 8 --filter clean.exr
 """
 import argparse
+import os
+import re
+import subprocess
 import sys
 
 import mitsuba as mi
 
-from . import render_samples, select_variant, write_samples
+from ..errors import Error, InputError, UsageError
+from . import render_to_file, select_variant
+
+# A process of its own: the samples are in memory as a whole there, and here is Mitsuba.
+_CONVERT = "import sys, rpf; rpf.write(sys.argv[2], rpf.read(sys.argv[1]))"
 
 
 def _size(text):
@@ -17,6 +24,14 @@ def _size(text):
     return [int(width), int(height)]
 
 
+def _crop(text):
+    numbers = re.fullmatch(r"(\d+)x(\d+)\+(\d+)\+(\d+)", text)
+    if numbers is None:
+        raise argparse.ArgumentTypeError(f"{text!r} is no window; width, height, x and y are expected, as in 320x180+100+50")
+    width, height, x, y = map(int, numbers.groups())
+    return (x, y, width, height)
+
+
 def _definition(text):
     name, equals, value = text.partition("=")
     if not equals:
@@ -24,41 +39,104 @@ def _definition(text):
     return name, value
 
 
-def _arguments():
+def _arguments(arguments):
     parser = argparse.ArgumentParser(prog="python -m rpf.mitsuba", description=__doc__.splitlines()[0])
     parser.add_argument("scene", help="scene.xml")
-    parser.add_argument("-o", "--output", required=True, help="raw sample file, by convention named .rpf")
+    parser.add_argument("-o", "--output", required=True, help="sample file: .exr is deep OpenEXR, .rpf raw floats")
     parser.add_argument("--spp", type=int, default=0, help="samples a pixel; the scene's number if left out")
     parser.add_argument("--size", type=_size, help="of the film in pixels, such as 640x360; takes a crop window away")
+    parser.add_argument("--crop", type=_crop, help="render this part of the film only, such as 320x180+100+50")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--sensor", type=int, default=0, help="index of the camera")
     parser.add_argument("-D", dest="definitions", type=_definition, action="append", default=[], metavar="NAME=VALUE",
                         help="value of a scene's $NAME")
-    return parser.parse_args()
+    parser.add_argument("--filter", metavar="IMAGE", help="filter the samples, and write the picture here")
+    parser.add_argument("--preset", help="which network filters: fast, balanced (the default) or high")
+    chosen = parser.parse_args(arguments)
+    if chosen.preset and not chosen.filter:
+        parser.error("--preset is for filtering: name the picture with --filter")
+    if not chosen.output.endswith((".exr", ".rpf")):
+        parser.error(f"-o {chosen.output}: samples are written as .exr or .rpf")
+    return chosen
 
 
-def _resize(sensor, size):
+def _place(sensor, size, crop):
+    """Size and crop window of the film."""
     parameters = mi.traverse(sensor)
-    parameters["film.size"], parameters["film.crop_size"], parameters["film.crop_offset"] = size, size, [0, 0]
+    if size:
+        parameters["film.size"], parameters["film.crop_size"], parameters["film.crop_offset"] = size, size, [0, 0]
+    if crop:
+        x, y, width, height = crop
+        film = [int(v) for v in parameters["film.size"]]
+        if not (0 < width <= film[0] - x and 0 < height <= film[1] - y):
+            raise UsageError(f"--crop {width}x{height}+{x}+{y} is not inside the film of {film[0]}x{film[1]} pixels")
+        parameters["film.crop_size"], parameters["film.crop_offset"] = [width, height], [x, y]
     parameters.update()
 
 
-def main():
-    arguments = _arguments()
-    select_variant()
+def _load(arguments):
+    """-> scene, sensor"""
     try:
         scene = mi.load_file(arguments.scene, **dict(arguments.definitions))
-        if not 0 <= arguments.sensor < len(scene.sensors()):
-            raise ValueError(f"{arguments.scene} has {len(scene.sensors())} sensors; there is no number {arguments.sensor}")
-        sensor = scene.sensors()[arguments.sensor]
-        if arguments.size:
-            _resize(sensor, arguments.size)
-        if not sensor.film().rfilter().is_box_filter():
-            print("rpf.mitsuba: samples have no pixel filter; the picture differs from the one with this film's", file=sys.stderr)
-        write_samples(arguments.output, render_samples(scene, arguments.spp, arguments.seed, sensor))
-    except (OSError, RuntimeError, ValueError) as error:
-        print(f"rpf.mitsuba: {error}", file=sys.stderr)
-        return 1
+    except (OSError, RuntimeError) as failure:
+        raise InputError(f"{arguments.scene}: {failure}") from failure
+    if not 0 <= arguments.sensor < len(scene.sensors()):
+        raise UsageError(f"--sensor {arguments.sensor}: {arguments.scene} has {len(scene.sensors())}, counted from 0")
+    sensor = scene.sensors()[arguments.sensor]
+    if arguments.size or arguments.crop:
+        _place(sensor, arguments.size, arguments.crop)
+    return scene, sensor
+
+
+def _check_compiled(arguments):
+    """Before the work: what is compiled, and the preset's name."""
+    if arguments.output.endswith(".rpf") and not arguments.filter:
+        return
+    try:
+        from .. import _core
+    except ImportError as failure:
+        raise UsageError(f"writing .exr and --filter need the compiled part of rpf ({failure}): `pip install .` at the root of the "
+                         "project, for this Python; or write .rpf") from failure
+    _core.preset_settings(arguments.preset or "balanced")
+
+
+def _render(arguments):
+    scene, sensor = _load(arguments)
+    if not sensor.film().rfilter().is_box_filter():
+        print("rpf.mitsuba: samples have no pixel filter; the picture differs from the one with this film's", file=sys.stderr)
+    raw = arguments.output if arguments.output.endswith(".rpf") else f"{arguments.output}.{os.getpid()}.rpf"
+    try:
+        render_to_file(raw, scene, arguments.spp, arguments.seed, sensor)
+        if raw != arguments.output:
+            subprocess.run([sys.executable, "-c", _CONVERT, raw, arguments.output], check=True)
+    finally:
+        if raw != arguments.output and os.path.exists(raw):
+            os.remove(raw)
+
+
+def _filter(arguments):
+    import rpf  # needs what is compiled; rendering to .rpf does not
+    settings = rpf.preset_settings(arguments.preset or "balanced")
+    settings.backend = "auto"
+    image = rpf.filter(rpf.read(arguments.output), settings=settings, keep=False)
+    rpf.write(arguments.filter, image)
+    for note in image.report.notes:
+        print(f"rpf.mitsuba: {note.count} {note.what}", file=sys.stderr)
+
+
+def main(arguments=None):
+    arguments = _arguments(arguments)
+    try:
+        _check_compiled(arguments)
+        select_variant()
+        _render(arguments)
+        if arguments.filter:
+            _filter(arguments)
+    except subprocess.CalledProcessError as failure:
+        return failure.returncode  # it has said why
+    except (OSError, RuntimeError, ValueError) as failure:
+        print(f"rpf.mitsuba: {failure}", file=sys.stderr)
+        return failure.exit_code if isinstance(failure, Error) else 4 if isinstance(failure, OSError) else 1
     return 0
 
 

@@ -8,17 +8,18 @@ import mitsuba as mi
 import numpy as np
 
 from .first_hits import first_hits, second_hits
-from .samples import Samples
+from ..errors import InputError
+from .samples import SampleFile, SamplePlanes
 
-_REFUSED = "rpf.mitsuba: the integrator {} gives no radiance for single rays; use one that does, such as path or volpath"
+_REFUSED = "the integrator {} gives no radiance for single rays; use one that does, such as path or volpath"
 
 
 def sampling_integrator(scene):
-    """The scene's integrator. Raises ValueError if it does not work ray by ray (ptracer) or is differential (prb)."""
+    """The scene's integrator. Raises InputError if it does not work ray by ray (ptracer) or is differential (prb)."""
     integrator = scene.integrator()
     differential = getattr(mi, "ad", None) and isinstance(integrator, mi.ad.integrators.common.ADIntegrator)
     if not isinstance(integrator, mi.SamplingIntegrator) or differential:
-        raise ValueError(_REFUSED.format(integrator.class_name()))
+        raise InputError(_REFUSED.format(integrator.class_name()))
     return integrator
 
 
@@ -44,28 +45,28 @@ def _rgb(spectrum, ray):
     return mi.Color3f(spectrum)
 
 
-def trace(scene, sensor, sampler, pixel, spp):
+def trace(scene, sensor, sampler, pixel, spp, active=True):
     """One sample for each entry of pixel (UInt32, row by row in the film's crop window).
 
-    spp scales the ray differentials as the renderer would. -> slot -> array of Dr.Jit, not evaluated; time in [0, 1).
+    spp scales the ray differentials as the renderer would. Samples that are not active are not rendered. -> slot -> array of Dr.Jit, not evaluated; time in [0, 1).
     """
     film = sensor.film()
     offset, scale = mi.ScalarVector2f(film.crop_offset()), 1 / mi.ScalarVector2f(film.crop_size())
     corner = mi.Vector2f(mi.Float(pixel % film.crop_size()[0]), mi.Float(pixel // film.crop_size()[0])) + offset
-    position = mi.Point2f(corner + sampler.next_2d())
-    lens = sampler.next_2d() if sensor.needs_aperture_sample() else mi.Point2f(0.5)
-    time = sampler.next_1d() if sensor.shutter_open_time() > 0 else mi.Float(0)
-    wavelength = sampler.next_1d() if mi.is_spectral else mi.Float(0)
+    position = mi.Point2f(corner + sampler.next_2d(active))
+    lens = sampler.next_2d(active) if sensor.needs_aperture_sample() else mi.Point2f(0.5)
+    time = sampler.next_1d(active) if sensor.shutter_open_time() > 0 else mi.Float(0)
+    wavelength = sampler.next_1d(active) if mi.is_spectral else mi.Float(0)
     ray, ray_weight = sensor.sample_ray_differential(sensor.shutter_open() + time * sensor.shutter_open_time(), wavelength,
-                                                     dr.fma(position, scale, -offset * scale), lens)
+                                                     dr.fma(position, scale, -offset * scale), lens, active)
     if ray.has_differentials:
         ray.scale_differential(mi.Float(1 / np.sqrt(spp)))
     numbers = sampler.clone()  # PathIntegrator::sample draws these three first
-    light, lobe, bsdf = numbers.next_2d(), numbers.next_1d(), numbers.next_2d()
-    radiance, _, _ = sampling_integrator(scene).sample(scene, sampler, ray, sensor.get_medium())
+    light, lobe, bsdf = numbers.next_2d(active), numbers.next_1d(active), numbers.next_2d(active)
+    radiance, _, _ = sampling_integrator(scene).sample(scene, sampler, ray, sensor.get_medium(), active)
     slots = {"radiance": _rgb(mi.unpolarized_spectrum(radiance * ray_weight), ray), "film": _inside(position, corner),
              "lens": lens, "time": time, "light": light, "bsdf": bsdf}
-    hit = scene.ray_intersect(ray)
+    hit = scene.ray_intersect(ray, active)
     slots.update(first_hits(hit, ray))
     if scene.integrator().class_name() == "PathIntegrator":  # its numbers are known, so its second ray is too
         slots.update(second_hits(scene, hit, ray, lobe, bsdf))
@@ -107,24 +108,64 @@ def recorded(scene, sensor, moving):
     return names
 
 
+class _Rendering:
+    """What a rendering is before it is rendered: its window, counts, names of planes and metadata."""
+
+    def __init__(self, scene, spp, seed, sensor, moving):
+        sampling_integrator(scene)
+        self.scene, self.seed = scene, seed
+        self.sensor = scene.sensors()[sensor] if isinstance(sensor, int) else sensor
+        _, self.spp = seeded_sampler(self.sensor, spp, seed)
+        self.slots = [name for name in _PLANES if name in recorded(scene, self.sensor, moving)]
+        self.names = [name for slot in self.slots for name in _PLANES[slot]]
+        self.width, self.height = (int(v) for v in self.sensor.film().crop_size())
+        self.window = (*(int(v) for v in self.sensor.film().crop_offset()), self.width, self.height)
+        self.counts = np.full(self.width * self.height, self.spp, np.uint32)
+        self.metadata = {"rpf:seed": int(seed), "rpf:renderer": f"Mitsuba {mi.__version__}"}
+
+    def rows(self, first, count):
+        """Renders rows of the film. -> slot in a file -> [samples] float32
+
+        The sampler belongs to the whole film, so that the numbers are the same for any cut. Other rows are not active, and only
+        the results of these rows are kept; nothing of the film's size is in memory.
+        """
+        sampler, spp = seeded_sampler(self.sensor, self.spp, self.seed)
+        lanes = dr.arange(mi.UInt32, self.width * self.height * spp)
+        samples = self.width * count * spp
+        place = lanes - dr.opaque(mi.UInt32, self.width * first * spp)  # wraps around in rows before these
+        active = place < dr.opaque(mi.UInt32, samples)
+        slots = trace(self.scene, self.sensor, sampler, lanes // dr.opaque(mi.UInt32, spp), spp, active)
+        result = {}
+        for slot in self.slots:
+            parts = [slots[slot]] if len(_PLANES[slot]) == 1 else list(slots[slot])
+            for name, part in zip(_PLANES[slot], parts):
+                result[name] = dr.empty(mi.Float, samples)
+                dr.scatter(result[name], mi.Float(part), place, active)
+        dr.eval(result)
+        return {name: np.array(values, dtype=np.float32) for name, values in result.items()}
+
+
 def render_samples(scene, spp=0, seed=0, sensor=0, moving=False):
-    """Renders a scene and keeps all samples.
+    """Renders a scene and keeps all samples in memory.
 
     spp: samples a pixel, 0 for the scene's number; some samplers round it up. sensor: index, or a sensor.
     moving: something moves while the shutter is open, so that the time of a sample is worth recording.
-    -> Samples. Raises ValueError for an integrator that does not work ray by ray.
+    -> SamplePlanes. Raises InputError for an integrator that does not work ray by ray.
     """
-    sampling_integrator(scene)
-    sensor = scene.sensors()[sensor] if isinstance(sensor, int) else sensor
-    sampler, spp = seeded_sampler(sensor, spp, seed)
-    width, height = (int(v) for v in sensor.film().crop_size())
-    lanes = dr.arange(mi.UInt32, width * height * spp)
-    slots = trace(scene, sensor, sampler, lanes // dr.opaque(mi.UInt32, spp), spp)
-    names = recorded(scene, sensor, moving)
-    channels = planes({name: values for name, values in slots.items() if name in names})
-    window = (*(int(v) for v in sensor.film().crop_offset()), width, height)
-    metadata = {"rpf:seed": int(seed), "rpf:renderer": f"Mitsuba {mi.__version__}"}
-    return Samples(window, np.full(width * height, spp, np.uint32), channels, metadata)
+    rendering = _Rendering(scene, spp, seed, sensor, moving)
+    channels = rendering.rows(0, rendering.height)
+    return SamplePlanes(rendering.window, rendering.counts, channels, rendering.metadata)
+
+
+def render_to_file(path, scene, spp=0, seed=0, sensor=0, moving=False, block_bytes=256 << 20):
+    """As render_samples, into a raw sample file: in blocks of rows, so that at most about twice block_bytes of samples are in
+    memory. The bytes do not depend on it. Raises InputError, OSError."""
+    rendering = _Rendering(scene, spp, seed, sensor, moving)
+    row = rendering.width * rendering.spp
+    rows = max(1, min(rendering.height, block_bytes // (4 * row * len(rendering.names))))
+    with SampleFile(path, rendering.window, rendering.counts, rendering.names, rendering.metadata) as file:
+        for first in range(0, rendering.height, rows):
+            file.put(first * row, rendering.rows(first, min(rows, rendering.height - first)))
 
 
 def render_reference(scene, spp, seed=0, sensor=0, sets=5):
