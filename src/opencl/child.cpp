@@ -35,8 +35,10 @@ std::string helper() {
   Dl_info object{};
   ::dladdr(RPF_PROBE_NAME, &object);
   const fs::path library = object.dli_fname == nullptr ? "" : object.dli_fname;
+  // Of the program itself this may be a name alone, which would mean the folder that a user happens to be in.
+  const fs::path folder = library.is_absolute() ? library.parent_path() : program.parent_path();
   for (const fs::path& path :
-       {program.parent_path() / RPF_PROBE_NAME, library.parent_path() / RPF_PROBE_NAME, fs::path(RPF_PROBE_FILE)})
+       {program.parent_path() / RPF_PROBE_NAME, folder / RPF_PROBE_NAME, fs::path(RPF_PROBE_FILE)})
     if (::access(path.c_str(), X_OK) == 0) return path.string();
   throw Error(ErrorKind::device, "OpenCL drivers are asked by " RPF_PROBE_NAME
                                  ", which is not beside the program; put it there, or use --backend=cpu");
