@@ -65,11 +65,11 @@ class Pass {
     float distance = 0;
     for (uint k = 0; k < embedding_; ++k) {
       const float t = kernel::rpf_embedding(here[k]) - kernel::rpf_embedding(there[k]);
-      distance += t * t;
+      distance = kernel::fma(t, t, distance);  // the pass's own bits
     }
     for (uint k = 0; k < RPF_GUIDES; ++k) {
       const float t = guide(pixel, here, k) - guide(other, there, k);
-      distance += t * t;
+      distance = kernel::fma(t, t, distance);
     }
     return kernel::rpf_exp(-distance);
   }

@@ -14,8 +14,8 @@ struct PixelShares {
   Window window;                      ///< frame coordinates: the pixels that the passes reach
   std::vector<double> pixels;         ///< [pixel of the window, row by row] they sum to 1
   std::vector<double> within_pixels;  ///< [sample of the window] of its pixel's samples: a pixel's sum to 1
-  std::array<double, 3> factor = {
-      1, 1, 1};  ///< the pixel's own albedo against that of its samples, blended; 1 without albedo
+  /// The pixel's own albedo against that of its samples, blended; 1 without albedo.
+  std::array<double, 3> factor = {1, 1, 1};
 };
 
 /// `window`: window_around(region_of_shares()), whose stages these are; x, y: the pixel, frame coordinates.

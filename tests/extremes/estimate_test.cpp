@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "arbitrary.h"
 #include "learned/network_file.h"
+#include "rpf/explain.h"
 #include "temporary_folder.h"
 #include "test_networks.h"
 #include "tolerances.h"
@@ -128,6 +130,30 @@ RC_GTEST_PROP(Estimate, TimesAPowerOfTwoIsThePictureTimesIt, ()) {
   std::vector<float> expected = filtered(samples, settings);
   for (float& value : expected) value = std::ldexp(value, exponent);
   RC_ASSERT(difference(filtered(scaled, settings), expected, 24) == "");
+}
+
+RC_GTEST_PROP(Estimate, IsWhatTheSharesOfItsSamplesMake, ()) {
+  const TemporaryFolder folder;
+  const SampleBuffer samples = any_estimated_frame();
+  const Settings settings = settings_with(folder, any_network());
+  const int pixel = pixel_of(samples, any_sample(samples));
+  const std::vector<float> picture = filtered(samples, settings);
+  const ExplainedEstimate explained = explain_estimate(samples, settings, {pixel % 24, pixel / 24});
+  double shares = 0;
+  std::array<double, 3> color{}, magnitude{};
+  for (const Contribution& sample : explained.samples) {
+    shares += sample.share;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double part = static_cast<double>(sample.share) * sample.color.at(c) * explained.factor.at(c);
+      color.at(c) += part;
+      magnitude.at(c) += std::fabs(part);
+    }
+  }
+  RC_PRE(shares > 0);  // not a pixel without weight
+  RC_ASSERT(std::fabs(shares - 1) <= tolerance::remade_pixel);
+  for (std::size_t c = 0; c < 3; ++c)
+    RC_ASSERT(std::fabs(color.at(c) - picture[static_cast<std::size_t>(pixel) * 3 + c]) <=
+              tolerance::remade_pixel * magnitude.at(c));
 }
 
 RC_GTEST_PROP(Estimate, HasTheSameBitsInAnyCropWithAnyThreads, ()) {
