@@ -21,12 +21,13 @@ class SamplePlanes:
     channels: dict
     metadata: dict = field(default_factory=dict)
 
-    def mean(self):
-        """[height, width, 3] mean radiance of each pixel; 0 where a pixel has no sample. Sums are in double."""
+    def mean(self, names="RGB"):
+        """[height, width, number of names] mean of these slots in each pixel, by default its radiance; 0 where a pixel has no
+        sample. Missing values count as 0. Sums are in double."""
         _, _, width, height = self.window
         pixel = np.repeat(np.arange(width * height), self.counts)
-        sums = [np.bincount(pixel, self.channels[c].astype(np.float64), width * height) for c in "RGB"]
-        return (np.stack(sums, -1) / np.maximum(self.counts, 1)[:, None]).reshape(height, width, 3)
+        sums = [np.bincount(pixel, np.nan_to_num(self.channels[name].astype(np.float64)), width * height) for name in names]
+        return (np.stack(sums, -1) / np.maximum(self.counts, 1)[:, None]).reshape(height, width, len(sums))
 
     def records(self):
         """An rpf.Samples, which rpf.filter takes: a copy. Needs the compiled part of the package."""
