@@ -1,121 +1,140 @@
-"""Defocus with Mitsuba 3: the presets and Open Image Denoise on the same samples, against a reference. Writes a page.
+"""A scene with defocus, rendered by Mitsuba 3 with a few samples a pixel and filtered by everything there is: one page.
 
-Usage: python examples/mitsuba_defocus/defocus.py [--reference SPP] [-o FOLDER]
-Needs `pip install '.[mitsuba]' pyoidn` at the root of the project; without pyoidn its rows are left out.
+    pip install '.[mitsuba,progress]' pyoidn      # at the root of the project; pyoidn is Open Image Denoise, left out where missing
+    python examples/mitsuba_defocus/defocus.py -o defocus
+
+The folder then has index.html, which carries all pictures, and picture.jpg. --reference 2048 takes a while; less will do to look at.
 """
 import argparse
+import base64
+import subprocess
+import sys
 from pathlib import Path
 
 import mitsuba as mi
 import numpy as np
 
 import rpf
-from rpf.mitsuba import render_reference, render_samples, select_variant
+from rpf.mitsuba import render_reference, render_samples, select_variant, write_samples
 
-SIZE = (320, 180)
-COUNTS = (4, 8)
-PRESETS = ("fast", "balanced", "high")
-MEAN, OIDN, REFERENCE = "plain mean", "Open Image Denoise", "reference"
+OIDN = Path(__file__).parents[2] / "bench/oidn_point.py"
+BALLS = [(-1.5, -2.6, "gold"), (-0.8, -1.1, 0.1), (0.0, 0.3, "glossy"), (0.9, 1.6, 0.6), (-0.5, 2.4, 0.35), (1.5, 3.2, "copper")]
 
 
-def defocus_scene():
-    """Three rows of balls on a checkered floor, sharp in the middle, under an area light. -> dict for mi.load_dict"""
-    to_world = mi.ScalarTransform4f
-    floor = {"type": "checkerboard", "to_uv": mi.ScalarTransform3f().scale(16), "color0": {"type": "rgb", "value": [0.2, 0.2, 0.25]},
-             "color1": {"type": "rgb", "value": [0.7, 0.65, 0.6]}}
-    scene = {
-        "type": "scene", "integrator": {"type": "path", "max_depth": 6},
-        "sensor": {"type": "thinlens", "fov": 35, "aperture_radius": 0.15, "focus_distance": 6.2,
-                   "to_world": to_world().look_at(origin=[0, 1.7, -6], target=[0, 0.5, 0], up=[0, 1, 0]),
-                   "film": {"type": "hdrfilm", "width": SIZE[0], "height": SIZE[1], "rfilter": {"type": "box"}},
-                   "sampler": {"type": "independent"}},
-        "floor": {"type": "rectangle", "to_world": to_world().scale(12).rotate([1, 0, 0], -90), "bsdf": {"type": "diffuse", "reflectance": floor}},
-        "light": {"type": "rectangle", "to_world": to_world().translate([1, 5, -1]).rotate([1, 0, 0], 90).scale(1.2),
-                  "emitter": {"type": "area", "radiance": {"type": "rgb", "value": [14, 13, 12]}}},
-        "sky": {"type": "constant", "radiance": {"type": "rgb", "value": [0.15, 0.2, 0.3]}}}
-    materials = [{"type": "diffuse", "reflectance": {"type": "rgb", "value": [0.7, 0.2, 0.15]}},
-                 {"type": "roughconductor", "material": "Al", "alpha": 0.15},
-                 {"type": "diffuse", "reflectance": {"type": "rgb", "value": [0.2, 0.45, 0.6]}}]
-    for row, z in enumerate((-3, 0, 4)):
-        for column, x in enumerate((-1.3, 0, 1.3)):
-            scene[f"ball{row}{column}"] = {"type": "sphere", "center": [x * (1 + 0.15 * z), 0.45, z], "radius": 0.45,
-                                           "bsdf": materials[(row + column) % 3]}
-    return scene
+def _color(*rgb):
+    return {"type": "rgb", "value": list(rgb)}
 
 
-def denoised(planes):
-    """Open Image Denoise on the means of color, albedo and normal; None where it is not installed."""
+def _material(kind):
+    if kind == "glossy":
+        return {"type": "plastic", "diffuse_reflectance": _color(0.15, 0.25, 0.6)}
+    if isinstance(kind, str):
+        return {"type": "roughconductor", "material": {"gold": "Au", "copper": "Cu"}[kind], "alpha": 0.15}
+    return {"type": "diffuse", "reflectance": _color(0.75 * kind + 0.2, 0.6 - 0.5 * kind, 0.3)}
+
+
+def defocus_scene(width, height):
+    """Balls on a checkered floor, the third one in focus; a light of area above, a dim sky."""
+    at = mi.ScalarTransform4f
+    scene = {"type": "scene", "integrator": {"type": "path", "max_depth": 5},
+             "floor": {"type": "rectangle", "to_world": at().rotate([1, 0, 0], -90).scale(12),
+                       "bsdf": {"type": "diffuse", "reflectance": {"type": "checkerboard", "to_uv": at().scale([24, 24, 1]),
+                                                                   "color0": _color(0.25, 0.22, 0.2), "color1": _color(0.7, 0.68, 0.6)}}},
+             "light": {"type": "rectangle", "to_world": at().translate([-2, 6, 2]).rotate([1, 0, 0], 90).scale(1.2),
+                       "emitter": {"type": "area", "radiance": _color(18, 16, 14)}},
+             "sky": {"type": "constant", "radiance": _color(0.12, 0.16, 0.24)},
+             "sensor": {"type": "thinlens", "fov": 32, "aperture_radius": 0.16, "focus_distance": 5.6,
+                        "to_world": at().look_at([0.6, 1.7, 5.7], [0, 0.4, 0], [0, 1, 0]),
+                        "film": {"type": "hdrfilm", "width": width, "height": height, "rfilter": {"type": "box"}},
+                        "sampler": {"type": "independent"}}}
+    for number, (x, z, kind) in enumerate(BALLS):
+        scene[f"ball{number}"] = {"type": "sphere", "center": [x, 0.45, z], "radius": 0.45, "bsdf": _material(kind)}
+    return mi.load_dict(scene)
+
+
+def open_image_denoise(planes, folder):
+    """Denoised means of the samples: name -> Image. Empty, and a word why, where pyoidn is not installed."""
+    source, noisy, clean = (folder / name for name in ("oidn.rpf", "noisy.rpf", "clean.rpf"))
+    write_samples(source, planes)
     try:
-        import pyoidn
-    except ImportError:
-        return None
-    color, albedo, normal = (planes.mean([f"{group}{c}" for c in letters]).astype(np.float32)
-                             for group, letters in (("", "RGB"), ("feature.albedo.", "RGB"), ("feature.N.", "XYZ")))
-    return pyoidn.denoise(color, albedo=albedo, normal=normal, hdr=True)
+        subprocess.run([sys.executable, OIDN, source, noisy, clean, "1"], check=True, stdout=subprocess.DEVNULL)
+        names = {"Open Image Denoise": noisy, "Open Image Denoise, features denoised first": clean}
+        return {name: plain_mean(rpf.read(file)) for name, file in names.items()}
+    except subprocess.CalledProcessError:
+        print("Open Image Denoise is left out: pip install pyoidn", file=sys.stderr)
+        return {}
+    finally:
+        for path in (source, noisy, clean):
+            path.unlink(missing_ok=True)
 
 
-def pictures(scene, spp):
-    """Renders the samples once. -> name -> [height, width, 3] of all methods on them"""
-    planes = render_samples(scene, spp, seed=spp)
+def plain_mean(samples):
+    settings = rpf.Settings()
+    settings.box_widths = []
+    return rpf.filter(samples, settings=settings, progress=False)
+
+
+def everything(scene, spp, folder):
+    """name -> Image, all of the same samples."""
+    planes = render_samples(scene, spp, seed=1)
     samples = planes.records()
-    found = {MEAN: planes.mean(), **{f"`{preset}`": rpf.filter(samples, preset).pixels for preset in PRESETS}}
-    other = denoised(planes)
-    return found if other is None else {**found, OIDN: other}
+    images = {f"mean of {spp} samples": plain_mean(samples)}
+    images.update({f"rpf, {preset}": rpf.filter(samples, preset) for preset, _ in rpf.presets()})
+    return {**images, **open_image_denoise(planes, folder)}
 
 
-def image_of(pixels):
-    return rpf.Image(np.ascontiguousarray(pixels, np.float32))
+def table(images, reference):
+    """[(name, relMSE without the worst 0.1 % of the pixels, FLIP, energy)]"""
+    errors = [(name, rpf.compare(image, reference)) for name, image in images.items()]
+    return [(name, error.trimmed_relmse, error.flip, error.energy) for name, error in errors]
 
 
-def best(errors):
-    """A sentence that says who wins."""
-    name = min(errors, key=lambda n: errors[n].trimmed_relmse)
-    ours = min((n for n in errors if n not in (MEAN, OIDN)), key=lambda n: errors[n].trimmed_relmse)
-    ratio = errors[ours].trimmed_relmse / errors[name].trimmed_relmse
-    return f"{name} has the lowest error" + (f"; that of {ours}, the best preset, is {ratio:.2g} times as high." if ratio > 1 else ".")
+def page(results, reference, spp_of_reference):
+    """All pictures and numbers in one file."""
+    def figure(name, image):
+        data = base64.b64encode(image._repr_png_()).decode()
+        return f'<figure><img src="data:image/png;base64,{data}"><figcaption>{name}</figcaption></figure>'
+
+    parts = ["<!doctype html><meta charset=utf-8><title>Defocus</title><style>body{font:15px sans-serif;max-width:1010px;margin:2em auto}"
+             "figure{display:inline-block;margin:4px}td,th{padding:2px 12px;text-align:right}td:first-child{text-align:left}</style>",
+             f"<h1>Defocus, Mitsuba 3</h1><p>All of the same samples. The reference has {spp_of_reference} samples a pixel. 0 is the best "
+             "relMSE and FLIP, 1 the best energy; the lowest error is bold.</p>"]
+    for spp, images in results.items():
+        rows = table(images, reference)
+        best = [min(row[k] for row in rows) for k in (1, 2)]
+        cells = ["".join(f"<td>{'<b>' * (row[k] == best[k - 1])}{row[k]:.4f}{'</b>' * (row[k] == best[k - 1])}</td>" for k in (1, 2))
+                 for row in rows]
+        parts.append(f"<h2>{spp} samples a pixel</h2><table><tr><th><th>relMSE (trimmed)<th>FLIP<th>energy</tr>")
+        parts += [f"<tr><td>{row[0]}</td>{cell}<td>{row[3]:.3f}</td></tr>" for row, cell in zip(rows, cells)] + ["</table>"]
+        parts += [figure(name, image) for name, image in images.items()]
+    return "\n".join([*parts, "<h2>Reference</h2>", figure(f"{spp_of_reference} samples a pixel", reference)])
 
 
-def page(tables, reference_spp, residual):
-    lines = ["# Defocus with Mitsuba 3", "", "    pip install '.[mitsuba]' pyoidn        # at the root of the project",
-             f"    python examples/mitsuba_defocus/defocus.py --reference {reference_spp}", "",
-             "[defocus.py](defocus.py) builds the scene, renders every sample, gives the same samples to each preset and to Open Image Denoise",
-             "(color, albedo and normal, averaged, not prefiltered), and writes this page.", "",
-             f"![all methods](defocus.jpg)", "", f"*{COUNTS[0]} samples a pixel, from the left: {', '.join(shown(tables[COUNTS[0]]))}.*", "",
-             f"Trimmed relMSE / FLIP, energy against a reference of {reference_spp:,} samples a pixel (its own relMSE: {residual:.2g}). "
-             f"{SIZE[0]}x{SIZE[1]}; lower is better, energy 1 is best.", "", "| | " + " | ".join(f"{spp} samples" for spp in tables) + " |",
-             "|---" * (len(tables) + 1) + "|"]
-    for name in tables[COUNTS[0]]:
-        cells = [f"{e.trimmed_relmse:.4f} / {e.flip:.3f}, {e.energy:.3f}" for e in (errors[name] for errors in tables.values())]
-        lines.append(f"| {name} | " + " | ".join(cells) + " |")
-    return "\n".join([*lines, "", *[f"With {spp} samples, {best(errors)}" for spp, errors in tables.items()], ""])
-
-
-def shown(errors):
-    return [*errors, REFERENCE]
-
-
-def write_sheet(path, images, columns=3):
-    """All pictures on one sheet, row by row, with the sRGB curve."""
-    blank = [np.zeros_like(images[0])] * (-len(images) % columns)
-    rows = [np.concatenate((images + blank)[k:k + columns], 1) for k in range(0, len(images), columns)]
-    sheet = mi.Bitmap(np.concatenate(rows).astype(np.float32))
-    sheet.convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.UInt8, srgb_gamma=True).write(str(path), quality=85)
+def picture(results, reference):
+    """Mean and rpf above, Open Image Denoise (where it is) and reference below."""
+    images = list(results[min(results)].items())
+    shown = [images[0][1], dict(images)["rpf, balanced"], dict(images).get("Open Image Denoise", reference), reference]
+    pixels = [image.pixels[..., :3] for image in shown]
+    return rpf.Image(np.ascontiguousarray(np.concatenate([np.concatenate(pixels[:2], 1), np.concatenate(pixels[2:], 1)])))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("-o", "--output", type=Path, required=True, help="folder")
+    parser.add_argument("--size", type=int, nargs=2, default=[320, 180], metavar=("WIDTH", "HEIGHT"))
+    parser.add_argument("--spp", type=int, nargs="+", default=[4, 8])
     parser.add_argument("--reference", type=int, default=2048, help="samples a pixel of the reference")
-    parser.add_argument("-o", "--output", type=Path, default=Path(__file__).parent, help="folder of README.md and defocus.jpg")
-    chosen = parser.parse_args()
-    chosen.output.mkdir(parents=True, exist_ok=True)
+    arguments = parser.parse_args()
+    arguments.output.mkdir(exist_ok=True)
     select_variant()
-    scene = mi.load_dict(defocus_scene())
-    reference, variance = render_reference(scene, chosen.reference, seed=1000)
-    found = {spp: pictures(scene, spp) for spp in COUNTS}
-    tables = {spp: {name: rpf.compare(image_of(p), image_of(reference)) for name, p in all_of.items()} for spp, all_of in found.items()}
-    residual = float(np.mean(variance / (reference**2 + 0.01)))
-    write_sheet(chosen.output / "defocus.jpg", [*found[COUNTS[0]].values(), reference])
-    (chosen.output / "README.md").write_text(page(tables, chosen.reference, residual))
+    scene = defocus_scene(*arguments.size)
+    results = {spp: everything(scene, spp, arguments.output) for spp in arguments.spp}
+    reference = rpf.Image(render_reference(scene, arguments.reference, seed=1000)[0].astype(np.float32))
+    (arguments.output / "index.html").write_text(page(results, reference, arguments.reference))
+    rpf.write(arguments.output / "picture.jpg", picture(results, reference))
+    for spp, images in results.items():
+        for row in table(images, reference):
+            print("{:2} samples  {:45} relMSE {:.4f}  FLIP {:.4f}  energy {:.3f}".format(spp, *row))
 
 
 if __name__ == "__main__":
