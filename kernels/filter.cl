@@ -70,14 +70,12 @@ typedef struct {
 
 static void weigh(const Frame* frame, const rpf_pass* pass, uint neighbors, const Slot* slot, const Normalization* n,
                   const Trace* trace, Weights* out, __global float* explained) {
-  const uint measured = min(neighbors, pass->measured);
   float information[RPF_PAIRS];
-  measure_dependencies(frame, pass, measured, slot, n, trace, information);
+  measure_dependencies(frame, pass, neighbors, slot, n, trace, information);
   const rpf_feature_weights feature = {out->feature_fraction_random, out->fraction_feature, out->beta};
   rpf_weigh_dependencies(information, RPF_RANDOM, RPF_FEATURES, pass->alpha_factor, pass->growth, &out->color, feature);
   for (uint i = 0; RPF_EXPLAIN && i < RPF_PAIRS; ++i) explained[i] = information[i];
   if (!trace->values) return;
-  trace->values[trace->at.measured] = (float)measured;
   trace_floats(trace, trace->at.information, information, RPF_PAIRS);
   trace_floats(trace, trace->at.color_weights, out->color.color_fraction_random, 3);
   trace->values[trace->at.color_weights + 3] = out->color.fraction_random;
@@ -103,8 +101,9 @@ static uint fill_neighborhood(const Frame* frame, const rpf_pass* pass, uint pix
 }
 
 // Sections 6 and 7 for the pixel whose neighborhood is in the slot.
-static void filter_pixel(const rpf_pass* pass, uint own, uint neighbors, const Slot* slot, const Normalization* n,
-                         const Weights* weights, const Trace* trace, __global float* out, __global float* explained) {
+static void average_samples(const rpf_pass* pass, uint own, uint neighbors, const Slot* slot, const Normalization* n,
+                            const Weights* weights, const Trace* trace, __global float* out,
+                            __global float* explained) {
   Means means;
   means.own = own;
   means.neighbors = neighbors;
@@ -123,74 +122,32 @@ typedef struct {
   __global float* explained;  // of the tile: [pixel][RPF_PAIRS + 1] mutual information, effective samples
 } Output;
 
-// Whole pixels from x, y on; positions in the frame.
-typedef struct {
-  int x, y, end_x, end_y;
-} Area;
-
-// The pixel of a block that measures for all: its first one that has samples.
-static uint leader_of(const Frame* frame, const rpf_pass* pass, Area block) {
-  for (int y = block.y; y < block.end_y; ++y)
-    for (int x = block.x; x < block.end_x; ++x) {
-      const uint pixel = (uint)(y * pass->width + x);
-      if (samples_of(frame, pass, pixel) > 0) return pixel;
-    }
-  return RPF_NO_SAMPLE;
-}
-
-// Where a pixel of the tile is explained. Blocks are single pixels then: each measures for itself.
+// Where a pixel of the tile is explained.
 static __global float* explained_at(const rpf_pass* pass, uint pixel, const Output* output) {
   const int2 at = position_of(pass, pixel);
   const int x = at.x, y = at.y;
   return output->explained + (size_t)((y - pass->tile_y) * pass->tile_width + x - pass->tile_x) * (RPF_PAIRS + 1);
 }
 
-static int is_inside(const rpf_pass* pass, Area area, uint pixel) {
-  const int2 at = position_of(pass, pixel);
-  const int x = at.x, y = at.y;
-  return x >= area.x && x < area.end_x && y >= area.y && y < area.end_y;
-}
-
-// One pixel of a block; the block's leader also measures.
-static void filter_member(const Frame* frame, const rpf_pass* pass, uint pixel, int measures, const Slot* slot,
-                          Weights* weights, Trace* trace, const Output* output) {
+// Sections 3 to 7 for a pixel.
+__attribute__((noinline)) static void filter_pixel(const Frame* frame, const rpf_pass* pass, uint pixel,
+                                                   const Slot* slot, Trace* trace, const Output* output) {
   const uint own = samples_of(frame, pass, pixel), first = first_sample_of(frame, pass, pixel);
   rpf_pixel_statistics statistics = {0, 0, 0.0f, 0.0f, 0.0f};
   __global float* explained = RPF_EXPLAIN ? explained_at(pass, pixel, output) : 0;
   if (own > 0) {
     Normalization n;
+    Weights weights;
     statistics.neighbors = fill_neighborhood(frame, pass, pixel, slot, &n, trace, &statistics.drawn);
-    if (measures) weigh(frame, pass, statistics.neighbors, slot, &n, trace, weights, explained);
-    statistics.fraction_random = weights->color.fraction_random;
-    statistics.alpha = rpf_mean(weights->color.alpha, 3);
-    statistics.beta = rpf_mean(weights->beta, RPF_FEATURES);
+    if (RPF_PHASES > 3) weigh(frame, pass, statistics.neighbors, slot, &n, trace, &weights, explained);
+    statistics.fraction_random = weights.color.fraction_random;
+    statistics.alpha = rpf_mean(weights.color.alpha, 3);
+    statistics.beta = rpf_mean(weights.beta, RPF_FEATURES);
     if (RPF_PHASES > 4)
-      filter_pixel(pass, own, statistics.neighbors, slot, &n, weights, trace,
-                   output->colors + (size_t)(first - pass->first_sample) * RPF_CARRIED, explained);
+      average_samples(pass, own, statistics.neighbors, slot, &n, &weights, trace,
+                      output->colors + (size_t)(first - pass->first_sample) * RPF_CARRIED, explained);
   }
   output->statistics[pixel - pass->first_pixel] = statistics;
-}
-
-// The pixels of a block that lie in the tile.
-__attribute__((noinline)) static void filter_block(const Frame* frame, const rpf_pass* pass, Area block, Area tile,
-                                                   const Slot* slot, Trace* trace, const Output* output) {
-  const uint leader = leader_of(frame, pass, block);
-  const Area wanted = {max(block.x, tile.x), max(block.y, tile.y), min(block.end_x, tile.end_x),
-                       min(block.end_y, tile.end_y)};
-  Weights weights;
-  if (leader != RPF_NO_SAMPLE && !is_inside(pass, wanted, leader)) {
-    Trace none = *trace;
-    none.values = 0;
-    Normalization n;
-    uint drawn;
-    const uint neighbors = fill_neighborhood(frame, pass, leader, slot, &n, &none, &drawn);
-    weigh(frame, pass, neighbors, slot, &n, trace, &weights, 0);
-  }
-  for (int y = wanted.y; y < wanted.end_y; ++y)
-    for (int x = wanted.x; x < wanted.end_x; ++x) {
-      const uint pixel = (uint)(y * pass->width + x);
-      filter_member(frame, pass, pixel, RPF_PHASES > 3 ? pixel == leader : 0, slot, &weights, trace, output);
-    }
 }
 
 #ifdef RPF_AVX512
@@ -237,16 +194,11 @@ __kernel void filter_tile(__global const uint* first_sample, __global const floa
                      columns + item * RPF_COLUMNS * RPF_STRETCH,
                      sums + item * (pass.most_samples * (1 + RPF_CARRIED) + 1)};
   const Output output = {next_colors, statistics, explained};
-  const Area tile = {pass.tile_x, pass.tile_y, pass.tile_x + pass.tile_width, pass.tile_y + pass.tile_height};
-  const int side = max((int)pass.block, 1), first_x = tile.x / side, first_y = tile.y / side;
-  const uint across = (uint)((tile.end_x - 1) / side - first_x + 1),
-             down = (uint)((tile.end_y - 1) / side - first_y + 1);
   trace.at = rpf_lay_out_trace(RPF_RANDOM, RPF_FEATURES, RPF_CARRIED,
-                               samples_of(&frame, &pass, (uint)(tile.y * pass.width + tile.x)));
-  for (uint i = (uint)item; i < across * down; i += (uint)get_global_size(0)) {
-    const uint row = i / across;
-    const int x = (first_x + (int)(i - row * across)) * side, y = (first_y + (int)row) * side;
-    const Area block = {x, y, min(x + side, pass.width), min(y + side, pass.height)};
-    filter_block(&frame, &pass, block, tile, &slot, &trace, &output);
+                               samples_of(&frame, &pass, (uint)(pass.tile_y * pass.width + pass.tile_x)));
+  const uint across = (uint)pass.tile_width, pixels = across * (uint)pass.tile_height;
+  for (uint i = (uint)item; i < pixels; i += (uint)get_global_size(0)) {
+    const uint row = i / across, x = (uint)pass.tile_x + i - row * across, y = (uint)pass.tile_y + row;
+    filter_pixel(&frame, &pass, y * (uint)pass.width + x, &slot, &trace, &output);
   }
 }

@@ -199,7 +199,7 @@ static uint gather(const Frame* frame, const rpf_pass* pass, uint pixel, uint fi
   copy_records(frame, pass, 0, own, slot);
   uint count = own;
   *drawn = 0;
-  for (uint begin = 0; begin < draws && count < pass->enough; begin += RPF_DRAWN_AT_ONCE) {
+  for (uint begin = 0; begin < draws; begin += RPF_DRAWN_AT_ONCE) {
     const uint candidates = draw_candidates(frame, pass, pixel, begin, min(begin + RPF_DRAWN_AT_ONCE, draws), slot);
 #ifdef RPF_AVX512
     fetch_candidates(frame, pass, candidates, slot);

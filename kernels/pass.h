@@ -26,9 +26,6 @@ typedef struct {
   uint first_sample;            //
   uint samples;                 // of the band
   uint seed, pass, attempts;    // of the draws (section 3)
-  uint enough;                  // neighbors, own samples included, at which drawing ends
-  uint block;                   // pixels of a square of this width share what section 5 finds
-  uint measured;                // neighbors that section 5 looks at, at most
   uint capacity;                // neighbors and own samples that a scratch slot holds
   uint most_samples;            //
   int entropy_slack;            // units that cannot be told from 0 (section 5)

@@ -23,7 +23,7 @@ RPF_INLINE rpf_words rpf_draw_key(uint seed, uint pass, uint pixel) { return rpf
 // A uniform choice among `count` samples.
 RPF_INLINE uint rpf_choose(uint word, uint count) { return mul_hi(word, count); }
 
-// Candidates are drawn in portions of so many, until there are enough neighbors.
+// Candidates are drawn in portions of so many.
 #define RPF_DRAWN_AT_ONCE 256u
 
 // ---- section 5: mutual information ----------------------------------------------------------------------------------

@@ -14,7 +14,6 @@ typedef struct {
   uint shift;                                            // [variables], padded to whole RPF_LANES
   uint own_mean, own_deviation, tolerance;               // [features], likewise
   uint mean, inverse_deviation;                          // [variables]
-  uint measured;                                         // 1: neighbors that section 5 looked at
   uint information;                                      // [pairs]
   uint color_weights;                                    // W_c,i^r (3), W_c^r, alpha (3)
   uint feature_fraction_random, fraction_feature, beta;  // [features]
@@ -34,8 +33,7 @@ RPF_INLINE rpf_trace_layout rpf_lay_out_trace(uint random, uint features, uint c
   at.tolerance = at.own_deviation + padded_features;
   at.mean = at.tolerance + padded_features;
   at.inverse_deviation = at.mean + variables;
-  at.measured = at.inverse_deviation + variables;
-  at.information = at.measured + 1;
+  at.information = at.inverse_deviation + variables;
   at.color_weights = at.information + rpf_pairs(random, features);
   at.feature_fraction_random = at.color_weights + 7;
   at.fraction_feature = at.feature_fraction_random + features;

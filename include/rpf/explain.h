@@ -98,7 +98,7 @@ struct ExplainedEstimate {
 Settings explain_settings();
 
 /// Runs one pass of the filter and keeps what it found. The settings must have exactly one box width, no crop, and no
-/// shared statistics. `pixel`: also everything about this one, which has samples. Throws as filter() does.
+/// other method than rpf. `pixel`: also everything about this one, which has samples. Throws as filter() does.
 Explanation explain(SampleBuffer samples, const Settings& settings, const Control& control = {},
                     const std::optional<PixelPosition>& pixel = {});
 

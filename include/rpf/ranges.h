@@ -17,9 +17,8 @@ struct NumberRange {
 };
 
 namespace ranges {
-constexpr NumberRange factor{1e-9, 1e6, "2"};  ///< samples_factor, neighbors_factor
+constexpr NumberRange factor{1e-9, 1e6, "2"};  ///< samples_factor
 constexpr NumberRange box_width{1, 255, "17", true, true};
-constexpr NumberRange statistics_block{1, 16, "4", true};
 constexpr NumberRange noise{1e-12, 1e12, "0.02"};
 constexpr NumberRange bins{3, 31, "7", true, true};
 constexpr NumberRange alpha_factor{0, 1e6, "2"};
@@ -27,8 +26,7 @@ constexpr NumberRange position_scale{1e-6, 1e6, "20"};
 constexpr NumberRange redraws{0, 15, "8", true};
 constexpr NumberRange sigma_color{1e-30, 1e30, "30"};
 constexpr NumberRange sigma_feature{1e-6, 1e6, "0.5"};
-constexpr NumberRange polish{1e-3, 10, "0.15", false, false, true};
-constexpr NumberRange count{1, 4294967295.0, "1000", true};  ///< of samples: max_samples, statistics_samples
+constexpr NumberRange count{1, 4294967295.0, "1000", true};  ///< of samples: max_samples
 constexpr NumberRange threads{1, 1 << 20, "8", true};
 }  // namespace ranges
 

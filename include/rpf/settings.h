@@ -33,9 +33,9 @@ enum class Method {
 };
 
 struct Settings {
-  /// Methods with fixed weights know box_widths, the sigmas, features, clamp_negative, the steps beyond the sources and
-  /// everything from filter_features on; learned knows model, random, features, clamp_negative and everything from
-  /// filter_features on. method_settings() (rpf/methods.h) has box widths and sigmas that suit a method.
+  /// Methods with fixed weights know box_widths, the sigmas, features, clamp_negative and everything from
+  /// filter_features on; learned knows model, random, features, clamp_negative and everything from filter_features on.
+  /// method_settings() (rpf/methods.h) has box widths and sigmas that suit a method.
   Method method = Method::rpf;
   /// Of learned: the name of a network in the library (presets.h), or a network file.
   std::string model = "balanced";
@@ -49,13 +49,6 @@ struct Settings {
   std::optional<double> samples_factor;
   /// Upper limit of M; 0: none.
   std::uint32_t max_samples = 0;
-  /// Drawing ends once a neighborhood has neighbors_factor * b^2 samples; M is then the most that is drawn for it. Lets
-  /// pixels that reject nearly everything draw longer than others. Above 0; nothing: M samples are drawn for all.
-  std::optional<double> neighbors_factor;
-  /// Pixels of a square of this width share the mutual information that its first pixel with samples measures. 1 .. 16.
-  int statistics_block = 1;
-  /// Neighbors that mutual information is measured on: at most so many, the first in the order of the draws. 0: all.
-  std::uint32_t statistics_samples = 0;
   /// sigma_8^2 of (T 5.10): 0.02 for very noisy scenes, 0.002 otherwise. Above 0.
   float noise = 0.02F;
   /// Histogram bins, B = 2 K + 1: odd, 3 .. 31.
@@ -86,13 +79,6 @@ struct Settings {
   // Methods with fixed weights. The standard deviation on the film is a quarter of the box width, in pixels.
   float sigma_color = 30;      ///< in the unit of the radiance (linear, over R, G and B together); 1e-30 .. 1e30
   float sigma_feature = 0.5F;  ///< in standard deviations of a group of features over the frame; 1e-6 .. 1e6
-
-  // Steps beyond thesis and paper (docs/deviations.md).
-  /// After every pass, what makes a pixel brighter than its 8 neighbors is shared with the 5x5 pixels around it.
-  bool spread_spikes = false;
-  /// H of the non-local means that average similar pixels of the result: the relative difference of color that counts
-  /// as noise, such as 0.15. 0: none; else 0.001 .. 10.
-  float polish = 0;
 
   /// Also filter the features with the weights of the color: Result::features.
   bool filter_features = false;

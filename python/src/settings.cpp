@@ -23,9 +23,6 @@ void bind_published(nb::class_<Settings>& c) {
       .def_rw("box_widths", &Settings::box_widths, "Of each pass: odd, 1 to 255 pixels. Empty: the plain mean.")
       .def_rw("samples_factor", &Settings::samples_factor, nb::arg().none(), "M = samples_factor * b^2.")
       .def_rw("max_samples", &Settings::max_samples, "Upper limit of M; 0: none.")
-      .def_rw("neighbors_factor", &Settings::neighbors_factor, nb::arg().none())
-      .def_rw("statistics_block", &Settings::statistics_block, "1 to 16 pixels.")
-      .def_rw("statistics_samples", &Settings::statistics_samples, "0: all.")
       .def_rw("noise", &Settings::noise, "sigma_8^2: 0.02 for very noisy scenes, 0.002 otherwise.")
       .def_rw("bins", &Settings::bins, "Odd, 3 to 31.")
       .def_rw("drop_uninformative", &Settings::drop_uninformative)
@@ -36,9 +33,7 @@ void bind_published(nb::class_<Settings>& c) {
       .def_rw("reject_second_hit", &Settings::reject_second_hit)
       .def_rw("bias_correction", &Settings::bias_correction)
       .def_rw("sigma_color", &Settings::sigma_color, "Linear radiance, over R, G and B together.")
-      .def_rw("sigma_feature", &Settings::sigma_feature, "Standard deviations of a group over the frame.")
-      .def_rw("spread_spikes", &Settings::spread_spikes)
-      .def_rw("polish", &Settings::polish, "Relative difference of color that counts as noise; 0: none.");
+      .def_rw("sigma_feature", &Settings::sigma_feature, "Standard deviations of a group over the frame.");
 }
 
 void bind_common(nb::class_<Settings>& c) {

@@ -79,13 +79,6 @@ void add_model_options(CLI::App& app, FilterOptions& o) {
   };
   number("--samples-factor", o.samples_factor, ranges::factor, "M = FACTOR * b^2 in place of the profile's");
   number("--max-samples", o.settings.max_samples, ranges::count, "Upper limit of M");
-  number("--neighbors-factor", o.neighbors_factor, ranges::factor,
-         "Draw no further once a neighborhood has FACTOR * b^2 samples; M is what is drawn at most");
-  number("--statistics-block", o.settings.statistics_block, ranges::statistics_block,
-         "Pixels of a square of this width share what mutual information says")
-      ->capture_default_str();
-  number("--statistics-samples", o.settings.statistics_samples, ranges::count,
-         "Measure mutual information on so many neighbors at most");
   number("--noise", o.settings.noise, ranges::noise, "sigma_8^2: 0.02 for very noisy scenes, 0.002 otherwise")
       ->capture_default_str();
   number("--bins", o.settings.bins, ranges::bins, "Histogram bins, odd")->capture_default_str();
@@ -112,20 +105,6 @@ void add_tuning_options(CLI::App& app, FilterOptions& o) {
   app.add_flag("--clamp-infinite", s.clamp_infinite,
                "Infinite radiance of float channels becomes the largest float, as that of half channels always becomes "
                "65504; else such a sample is left out")
-      ->group(group);
-}
-
-void add_step_options(CLI::App& app, FilterOptions& o) {
-  const std::string group = "Steps beyond thesis and paper (docs/deviations.md)";
-  app.add_flag("--spread-spikes", o.settings.spread_spikes,
-               "After every pass, share what makes a pixel brighter than its neighbors with those around it")
-      ->group(group);
-  restrict_to(app.add_option("--polish", o.settings.polish,
-                             "At the end, average pixels that differ by about this part of their color, such as 0.15; "
-                             "0: none"),
-              ranges::polish)
-      ->type_name("H")
-      ->capture_default_str()
       ->group(group);
 }
 
@@ -213,7 +192,6 @@ void add_filter_options(CLI::App& app, FilterOptions& options) {
   add_method_options(app, options);
   add_model_options(app, options);
   add_tuning_options(app, options);
-  add_step_options(app, options);
   add_run_options(app, options);
 }
 
@@ -282,7 +260,6 @@ Settings settings_of(const FilterOptions& o) {
   if (!o.boxes.empty()) s.box_widths = box_widths(o.boxes);
   if (o.samples_factor > 0) s.samples_factor = o.samples_factor;
   if (o.sigma_color > 0) s.sigma_color = o.sigma_color;
-  if (o.neighbors_factor > 0) s.neighbors_factor = o.neighbors_factor;
   if (!o.features.empty()) s.features = groups(o.features);
   if (!o.random.empty()) s.random = groups(o.random);
   if (!o.crop.empty()) s.crop = window_of("--crop", o.crop);

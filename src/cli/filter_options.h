@@ -14,8 +14,8 @@ namespace rpf::cli {
 struct FilterOptions {
   std::string input, output, aov;
   std::string method = "rpf", profile = "thesis", boxes, features, random, crop;
-  double samples_factor = 0, neighbors_factor = 0;  ///< 0: not given
-  float sigma_color = 0;                            ///< 0: not given
+  double samples_factor = 0;  ///< 0: not given
+  float sigma_color = 0;      ///< 0: not given
   std::vector<std::string> map;
   std::uint64_t max_memory_mb = 0;  ///< 0: not given
   std::string progress = "auto";

@@ -20,12 +20,10 @@ struct Limited {
 
 const Limited limited[] = {
     {{"--preset", "--model", "--time-budget"}, {Method::learned}},
-    {{"--profile", "--samples-factor", "--max-samples", "--neighbors-factor", "--statistics-block",
-      "--statistics-samples", "--noise", "--bins", "--drop-uninformative", "--seed", "--alpha-factor",
-      "--position-scale", "--redraws", "--reject-second-hit", "--bias-correction"},
+    {{"--profile", "--samples-factor", "--max-samples", "--noise", "--bins", "--drop-uninformative", "--seed",
+      "--alpha-factor", "--position-scale", "--redraws", "--reject-second-hit", "--bias-correction"},
      {Method::rpf}},
-    {{"--boxes", "--spread-spikes", "--polish"},
-     {Method::rpf, Method::gaussian, Method::bilateral, Method::cross_bilateral}},
+    {{"--boxes"}, {Method::rpf, Method::gaussian, Method::bilateral, Method::cross_bilateral}},
     {{"--random"}, {Method::rpf, Method::learned}},
     {{"--features"}, {Method::rpf, Method::cross_bilateral, Method::learned}},
     {{"--sigma-color"}, {Method::bilateral, Method::cross_bilateral}},

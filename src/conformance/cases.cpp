@@ -133,18 +133,6 @@ void add_windows(CaseList& list) {
     list.add("crop/" + text_of(crop), [&](Settings& s) { s.crop = crop; });
 }
 
-/// Blocks that share statistics, where they are cut: by empty pixels, bands, and a crop.
-void add_shared_statistics(CaseList& list) {
-  ConformanceCase c = CaseList::basic("dof", CaseList::varying);
-  c.settings.statistics_block = 3;
-  c.quick = true;
-  list.add("statistics-block/3/varying", c);
-  c.band_rows = 19;
-  list.add("statistics-block/3/band", c);
-  c.settings.crop = Window{4, 5, 11, 7};
-  list.add("statistics-block/3/crop", c);
-}
-
 /// What `rpf explain` reads from backends: as whole tiles, and in tiles that the device takes in parts.
 void add_explained(CaseList& list) {
   for (const int samples : {1, 4, CaseList::varying}) {
@@ -183,22 +171,8 @@ void add_settings(CaseList& list) {
       s.features = std::vector<std::string>{};  // nothing is rejected: N is M
     });
   for (const int bins : {3, 5, 9, 31}) list.add(fmt::format("bins/{}", bins), [&](Settings& s) { s.bins = bins; });
-  for (const int block : {2, 3, 16})
-    list.add(fmt::format("statistics-block/{}", block), [&](Settings& s) { s.statistics_block = block; });
-  for (const std::uint32_t most : {1U, 20U, 64U})
-    list.add(fmt::format("statistics-samples/{}", most), [&](Settings& s) { s.statistics_samples = most; });
-  for (const double factor : {0.01, 0.3, 1.0})
-    list.add(fmt::format("neighbors-factor/{:g}", factor), [&](Settings& s) {
-      s.samples_factor = 8;
-      s.neighbors_factor = factor;
-    });
-  add_shared_statistics(list);
   list.add("reject-second-hit", [](Settings& s) { s.reject_second_hit = true; });
   list.add("bias-correction", [](Settings& s) { s.bias_correction = true; });
-  list.add("spread-spikes,polish", [](Settings& s) {
-    s.spread_spikes = true;
-    s.polish = 0.15F;
-  });
 }
 
 void add_extremes(CaseList& list) {

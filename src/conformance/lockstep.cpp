@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <chrono>
 
-#include "after/polish.h"
-#include "after/resolve.h"
-#include "after/spikes.h"
 #include "conformance/comparison.h"
 #include "conformance/estimator_lockstep.h"
 #include "cpu/cpu_backend.h"
 #include "frame/prepare.h"
+#include "frame/resolve.h"
 #include "opencl/opencl_backend.h"
 #include "rpf/filter.h"
 #include "rpf_math.h"
@@ -103,8 +101,6 @@ class Lockstep {
     run_device(region.y + upper, region.height - upper);
     reference_.end_pass();
     device_.end_pass();
-    spread(reference_);
-    spread(device_);
     comparison_.at(pass, "whole frame");
     if (plan_.explain) comparison_.values("explained", reference_.explained(), explained);
     comparison_.statistics(reference_.statistics(), device_.statistics());
@@ -112,16 +108,7 @@ class Lockstep {
   }
 
   std::vector<float> image(const Backend& backend) const {
-    const Frame& frame = prepared_.frame;
-    std::vector<float> pixels = resolve(frame, backend.colors(), plan_.carried);
-    const float floor = polish_floor(frame, resolve(frame, prepared_.colors, plan_.carried), plan_.carried);
-    polish(frame, plan_, {floor, 1, {}}, pixels);
-    return pixels;
-  }
-
-  /// What the driver does after a pass, so that the next pass is compared on its result.
-  void spread(Backend& backend) const {
-    if (plan_.spread_spikes) spread_spikes(prepared_.frame, plan_.carried, backend.colors_to_change());
+    return resolve(prepared_.frame, backend.colors(), plan_.carried);
   }
 
   PreparedFrame prepared_;

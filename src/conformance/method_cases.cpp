@@ -77,10 +77,6 @@ void add_features(MethodCases& list) {
 void add_common_settings(MethodCases& list) {
   list.add("carried/features", [](Settings& s) { s.filter_features = true; });
   list.add("crop", [](Settings& s) { s.crop = Window{3, 5, 11, 7}; });
-  list.add("spread-spikes,polish", [](Settings& s) {
-    s.spread_spikes = true;
-    s.polish = 0.15F;
-  });
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <future>
-#include <optional>
 
 #include "cpu/box.h"
 #include "cpu/must_stop.h"
@@ -40,35 +39,6 @@ PixelStatistics summarize(const Workspace& w) {
   return s;
 }
 
-/// The pixels of a block, row by row.
-std::vector<std::uint32_t> pixels_of(const Frame& frame, const Window& block) {
-  std::vector<std::uint32_t> pixels;
-  for (int y = block.y; y < block.y + block.height; ++y)
-    for (int x = block.x; x < block.x + block.width; ++x)
-      pixels.push_back(static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame.width) +
-                       static_cast<std::uint32_t>(x));
-  return pixels;
-}
-
-/// The pixels around (x, y) that share statistics, cut at the frame's edge.
-Window block_at(const Frame& frame, const Plan& plan, int x, int y) {
-  const int side = plan.statistics_block, left = x / side * side, top = y / side * side;
-  return {left, top, std::min(side, frame.width - left), std::min(side, frame.height - top)};
-}
-
-/// What two windows that meet have in common.
-Window common(const Window& a, const Window& b) {
-  const int x = std::max(a.x, b.x), y = std::max(a.y, b.y);
-  return {x, y, std::min(a.x + a.width, b.x + b.width) - x, std::min(a.y + a.height, b.y + b.height) - y};
-}
-
-/// The pixel that measures for a block: its first one that has samples. Nothing where none has.
-std::optional<std::uint32_t> leader_of(const Frame& frame, const Window& block) {
-  for (const std::uint32_t pixel : pixels_of(frame, block))
-    if (frame.samples(pixel) > 0) return pixel;
-  return std::nullopt;
-}
-
 /// Sections 3 and 4.
 void fill_neighborhood(const Frame& frame, const Plan& plan, int pass, std::uint32_t pixel, Workspace& w) {
   if (plan.method != Method::rpf) return gather_box(frame, plan, pass, pixel, w.neighborhood);
@@ -93,8 +63,8 @@ void average_samples(const Frame& frame, const Plan& plan, int pass, std::uint32
 }
 
 /// The same with section 7.
-void filter_pixel(const Frame& frame, const Plan& plan, int pass, std::uint32_t pixel, const std::vector<float>& colors,
-                  Workspace& w, float* out) {
+void average_and_replace(const Frame& frame, const Plan& plan, int pass, std::uint32_t pixel,
+                         const std::vector<float>& colors, Workspace& w, float* out) {
   average_samples(frame, plan, pass, frame.samples(pixel), colors, w, out, nullptr);
   if (plan.outlier_step) replace_outliers(out, frame.samples(pixel), plan.carried);
 }
@@ -109,24 +79,14 @@ void CpuBackend::load(const Frame& frame, std::vector<float> colors, const Plan&
   statistics_.assign(frame.first_sample.size() - 1, {});
 }
 
-void CpuBackend::filter_block(int pass, const Window& block, const Window& tile, Workspace& w) {
-  const std::optional<std::uint32_t> leader = leader_of(*frame_, block);
-  if (!leader) return;
-  const std::vector<std::uint32_t> pixels = pixels_of(*frame_, common(block, tile));
-  if (std::find(pixels.begin(), pixels.end(), *leader) == pixels.end()) {
-    fill_neighborhood(*frame_, *plan_, pass, *leader, w);
-    measure(*plan_, pass, w);
-  }
-  for (const std::uint32_t pixel : pixels) {
-    if (frame_->samples(pixel) == 0) continue;
-    if (must_stop()) return;
-    fill_neighborhood(*frame_, *plan_, pass, pixel, w);
-    if (pixel == *leader) measure(*plan_, pass, w);
-    filter_pixel(*frame_, *plan_, pass, pixel, colors_, w,
-                 next_colors_.data() + frame_->first_sample[pixel] * plan_->carried);
-    statistics_[pixel] = summarize(w);
-    if (plan_->explain) keep_explanation(tile, pixel, w);
-  }
+void CpuBackend::filter_pixel(int pass, std::uint32_t pixel, const Window& tile, Workspace& w) {
+  if (frame_->samples(pixel) == 0 || must_stop()) return;
+  fill_neighborhood(*frame_, *plan_, pass, pixel, w);
+  measure(*plan_, pass, w);
+  average_and_replace(*frame_, *plan_, pass, pixel, colors_, w,
+                      next_colors_.data() + frame_->first_sample[pixel] * plan_->carried);
+  statistics_[pixel] = summarize(w);
+  if (plan_->explain) keep_explanation(tile, pixel, w);
 }
 
 void CpuBackend::keep_explanation(const Window& tile, std::uint32_t pixel, const Workspace& w) {
@@ -141,12 +101,10 @@ void CpuBackend::keep_explanation(const Window& tile, std::uint32_t pixel, const
 void CpuBackend::run(int pass, const Window& tile) {
   if (plan_->explain) explained_.assign(tile.pixel_count() * (pair_count(plan_->variables) + 1), 0.0F);
   tbb::enumerable_thread_specific<Workspace> workspaces;
-  const int side = plan_->statistics_block, first_x = tile.x / side, first_y = tile.y / side;
-  const int across = (tile.x + tile.width - 1) / side - first_x + 1;
-  const int down = (tile.y + tile.height - 1) / side - first_y + 1;
-  run_watched(across * down, [&](int i) {
-    const Window block = block_at(*frame_, *plan_, (first_x + i % across) * side, (first_y + i / across) * side);
-    filter_block(pass, block, tile, workspaces.local());
+  run_watched(static_cast<int>(tile.pixel_count()), [&](int i) {
+    const int x = tile.x + i % tile.width, y = tile.y + i / tile.width;
+    filter_pixel(pass, static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame_->width) + x, tile,
+                 workspaces.local());
   });
 }
 
@@ -181,13 +139,10 @@ PixelTrace CpuBackend::trace_here(int pass, std::uint32_t pixel) const {
   t.pixel = pixel;
   const std::uint32_t own = frame_->samples(pixel);
   if (own == 0) return t;
-  const int x = static_cast<int>(pixel) % frame_->width, y = static_cast<int>(pixel) / frame_->width;
-  const std::uint32_t leader = *leader_of(*frame_, block_at(*frame_, *plan_, x, y));
-  fill_neighborhood(*frame_, *plan_, pass, leader, w);
+  fill_neighborhood(*frame_, *plan_, pass, pixel, w);
   measure(*plan_, pass, w);
-  if (leader != pixel) fill_neighborhood(*frame_, *plan_, pass, pixel, w);
   t.colors.resize(own * plan_->carried);
-  filter_pixel(*frame_, *plan_, pass, pixel, colors_, w, t.colors.data());
+  average_and_replace(*frame_, *plan_, pass, pixel, colors_, w, t.colors.data());
   t.filtered.resize(t.colors.size());
   average_samples(*frame_, *plan_, pass, own, colors_, w, t.filtered.data(), &t.weights);
   t.shift = w.neighborhood.shift;

@@ -24,7 +24,7 @@ class CpuBackend : public Backend {
   void run(int pass, const Window& tile) override;
   void end_pass() override;
   const std::vector<float>& colors() const override { return colors_; }
-  std::vector<float>& colors_to_change() override { return colors_; }
+  std::vector<float> take_colors() override { return std::move(colors_); }
   const std::vector<PixelStatistics>& statistics() const override { return statistics_; }
   const std::vector<float>& explained() const override { return explained_; }
   std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const override;
@@ -43,8 +43,8 @@ class CpuBackend : public Backend {
   /// Runs body(0) .. body(count - 1) on all threads while check_ is called here. Where that throws the bodies end
   /// early: they ask must_stop().
   void run_watched(int count, const std::function<void(int)>& body);
-  /// Filters the pixels of a block that lie in the tile.
-  void filter_block(int pass, const Window& block, const Window& tile, Workspace& w);
+  /// All sections for a pixel of the tile; nothing for one without samples.
+  void filter_pixel(int pass, std::uint32_t pixel, const Window& tile, Workspace& w);
   PixelTrace trace_here(int pass, std::uint32_t pixel) const;
   /// explained() of a pixel of the tile, from what filtering it left in the workspace.
   void keep_explanation(const Window& tile, std::uint32_t pixel, const Workspace& w);

@@ -151,7 +151,7 @@ void gather(const Frame& frame, const Plan& plan, int pass, std::uint32_t pixel,
   const Sampler sampler(frame, plan, pass, pixel);
   const std::uint32_t draws = p.neighborhood.draws(own);
   n.drawn = 0;
-  for (std::uint32_t begin = 0; begin < draws && n.size() < p.enough; begin += RPF_DRAWN_AT_ONCE) {
+  for (std::uint32_t begin = 0; begin < draws; begin += RPF_DRAWN_AT_ONCE) {
     draw_candidates(frame, plan, sampler, begin, std::min(begin + RPF_DRAWN_AT_ONCE, draws), n);
     for (const std::uint32_t candidate : n.candidates) {
       const float* record = frame.record(candidate);

@@ -48,11 +48,11 @@ void for_each_partner_range(const Variables& variables, Body body) {
     body(x, Variables::position, variables.features());
 }
 
-void fill_bins(const Plan& plan, const Neighborhood& n, std::uint32_t measured, Dependencies& out) {
+void fill_bins(const Plan& plan, const Neighborhood& n, Dependencies& out) {
   const std::size_t variables = plan.variables.count(), bins = 2 * static_cast<std::size_t>(plan.half_bins) + 1;
-  out.bins.resize(measured * variables);
+  out.bins.resize(n.size() * variables);
   out.marginals.assign(variables * bins, 0);
-  for (std::uint32_t j = 0; j < measured; ++j)
+  for (std::uint32_t j = 0; j < n.size(); ++j)
     for (std::size_t v = 0; v < variables; ++v) {
       const int bin = kernel::rpf_bin(n.rows[j * variables + v], plan.half_bins);
       out.bins[j * variables + v] = static_cast<std::uint8_t>(bin);
@@ -60,12 +60,12 @@ void fill_bins(const Plan& plan, const Neighborhood& n, std::uint32_t measured, 
     }
 }
 
-/// Of the first `measured` neighbors, row by row: all pairs of one before the next.
-void fill_histograms(const Plan& plan, std::uint32_t measured, Dependencies& out) {
+/// Row by row: all pairs of one neighbor before the next.
+void fill_histograms(const Plan& plan, std::uint32_t neighbors, Dependencies& out) {
   const std::size_t variables = plan.variables.count(), bins = 2 * static_cast<std::size_t>(plan.half_bins) + 1;
   out.histograms.assign(pair_count(plan.variables) * bins * bins, 0);
   constexpr std::uint32_t rows_at_once = 4096;
-  for (std::uint32_t j = 0; j < measured && (j % rows_at_once != 0 || !must_stop()); ++j) {
+  for (std::uint32_t j = 0; j < neighbors && (j % rows_at_once != 0 || !must_stop()); ++j) {
     const std::uint8_t* row = out.bins.data() + j * variables;
     std::uint32_t* histogram = out.histograms.data();
     for_each_partner_range(plan.variables, [&](std::size_t x, std::size_t y_begin, std::size_t y_end) {
@@ -106,14 +106,13 @@ void normalize(Neighborhood& n, Normalization& out) {
 void measure_dependencies(const Plan& plan, int pass, const Neighborhood& n, Dependencies& out) {
   const PassPlan& p = plan.passes[static_cast<std::size_t>(pass)];
   const std::size_t variables = plan.variables.count(), bins = 2 * static_cast<std::size_t>(plan.half_bins) + 1;
-  const std::uint32_t measured = std::min(n.size(), plan.statistics_samples);
-  fill_bins(plan, n, measured, out);
-  fill_histograms(plan, measured, out);
+  fill_bins(plan, n, out);
+  fill_histograms(plan, n.size(), out);
   std::vector<std::uint32_t> marginal_units(variables);
   for (std::size_t v = 0; v < variables; ++v)
     marginal_units[v] = entropy_units(p.entropy, &out.marginals[v * bins], bins);
-  const auto all = static_cast<std::uint32_t>(p.entropy.units[measured]);
-  const auto neighbors = static_cast<float>(measured);
+  const auto all = static_cast<std::uint32_t>(p.entropy.units[n.size()]);
+  const auto neighbors = static_cast<float>(n.size());
   out.information.clear();
   const std::uint32_t* histogram = out.histograms.data();
   for_each_partner_range(plan.variables, [&](std::size_t x, std::size_t y_begin, std::size_t y_end) {

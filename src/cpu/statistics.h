@@ -23,13 +23,13 @@ void normalize(Neighborhood& n, Normalization& out);
 /// Joint histograms of the pairs that the weights need, and the mutual information of each. Pairs: every color with
 /// every other variable but the colors, then every feature with every position and random parameter. B bins.
 struct Dependencies {
-  std::vector<std::uint8_t> bins;         ///< [measured][V] bin + K, of the first neighbors
+  std::vector<std::uint8_t> bins;         ///< [N][V] bin + K
   std::vector<std::uint32_t> histograms;  ///< [pair][B][B]
   std::vector<std::uint32_t> marginals;   ///< [V][B]
   std::vector<float> information;         ///< [pair] nats
 };
 
-/// Section 5, first half, over the first Plan::statistics_samples neighbors.
+/// Section 5, first half.
 void measure_dependencies(const Plan& plan, int pass, const Neighborhood& n, Dependencies& out);
 
 /// Section 5, second half.

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "after/resolve.h"
 #include "explain/attribution.h"
 #include "explain/layers.h"
 #include "explain/pixel_number.h"
 #include "explain/traced_pixel.h"
+#include "frame/resolve.h"
 #include "frame/selection.h"
 #include "rpf/error.h"
 #include "run/backends.h"
@@ -30,7 +30,6 @@ void check(const Settings& settings) {
   if (settings.box_widths.size() != 1)
     refuse(
         fmt::format("{} box widths; exactly one is expected, that of the pass to explain", settings.box_widths.size()));
-  if (settings.statistics_block != 1) refuse("statistics shared by a block of pixels; 1 is expected");
   if (settings.crop) refuse("a crop; the whole frame is explained");
 }
 

@@ -1,10 +1,9 @@
 #include <algorithm>
-#include <numeric>
 
-#include "after/resolve.h"
 #include "explain/contributions.h"
 #include "explain/pixel_number.h"
 #include "frame/prepare.h"
+#include "frame/resolve.h"
 #include "learned/network_file.h"
 #include "learned/observe.h"
 #include "rpf/error.h"

@@ -25,11 +25,6 @@ std::uint64_t neighbors_of(const Frame& frame, const Plan& plan, int pass, int x
   return plan.method == Method::rpf ? std::max(p.neighborhood.size(own), own) : samples_in_box(frame, p, x, y);
 }
 
-/// Where to cut a length between two blocks, 0 where it is of one; `begin`: of the length in the frame.
-int between_blocks(int begin, int length, int block) {
-  return std::max((begin + length / 2) / block * block - begin, 0);
-}
-
 }  // namespace
 
 PixelWork pixel_work(const Frame& frame, const Plan& plan, int pass, int x, int y) {
@@ -63,9 +58,8 @@ bool has_long_pixels(const Plan& plan, std::uint64_t weights_at_once) {
   });
 }
 
-std::array<Window, 2> halves_of(const Window& tile, int block) {
-  int upper = between_blocks(tile.y, tile.height, block), left = between_blocks(tile.x, tile.width, block);
-  if (upper == 0 && left == 0) (tile.height > 1 ? upper : left) = (tile.height > 1 ? tile.height : tile.width) / 2;
+std::array<Window, 2> halves_of(const Window& tile) {
+  const int upper = tile.height / 2, left = tile.width / 2;
   if (upper > 0)
     return {Window{tile.x, tile.y, tile.width, upper}, Window{tile.x, tile.y + upper, tile.width, tile.height - upper}};
   return {Window{tile.x, tile.y, left, tile.height}, Window{tile.x + left, tile.y, tile.width - left, tile.height}};

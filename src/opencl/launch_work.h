@@ -26,7 +26,7 @@ std::uint64_t work_of(const Frame& frame, const Plan& plan, int pass, const Wind
 /// Whether any pixel can have more weights than so many.
 bool has_long_pixels(const Plan& plan, std::uint64_t weights_at_once);
 
-/// A tile of more than one pixel in two, between two blocks where there are more than one.
-std::array<Window, 2> halves_of(const Window& tile, int block);
+/// A tile of more than one pixel in two.
+std::array<Window, 2> halves_of(const Window& tile);
 
 }  // namespace rpf

@@ -70,11 +70,10 @@ std::vector<float> scales_of(const PassPlan& pass) {
 
 int reach_of(const PassPlan& pass) { return box_reach(pass.box_width); }
 
-/// The rows that a pass reads for a tile: also for pixels above it that measure for its first ones.
+/// The rows that a pass reads for a tile.
 Rows rows_read(const Plan& plan, int pass, const Window& tile) {
   const int reach = reach_of(plan.passes[static_cast<std::size_t>(pass)]);
-  const int first = tile.y / plan.statistics_block * plan.statistics_block;
-  return {std::max(first - reach, 0), std::min(tile.y + tile.height + reach, plan.height)};
+  return {std::max(tile.y - reach, 0), std::min(tile.y + tile.height + reach, plan.height)};
 }
 
 }  // namespace
@@ -189,9 +188,6 @@ kernel::rpf_pass OpenClBackend::arguments(int pass, const Window& tile, const Ba
   a.seed = plan_->seed;
   a.pass = static_cast<std::uint32_t>(pass);
   a.attempts = plan_->attempts;
-  a.enough = p.enough;
-  a.block = static_cast<std::uint32_t>(plan_->statistics_block);
-  a.measured = plan_->statistics_samples;
   a.capacity = scratch_->sizes.capacity;
   a.most_samples = scratch_->sizes.most_samples;
   a.entropy_slack = plan_->entropy_slack;
@@ -272,11 +268,11 @@ void OpenClBackend::run_part(int pass, const Window& tile) {
 }
 
 void OpenClBackend::launch_pieces(int pass, const Window& tile, const Band& band) {
-  // What is explained is added up in one slot, and a block of pixels that share statistics is one item's work.
-  const std::size_t at_once = plan_->explain || plan_->statistics_block > 1 ? 1 : items_;
+  // What is explained is added up in one slot.
+  const std::size_t at_once = plan_->explain ? 1 : items_;
   if (tile.pixel_count() > at_once && (work_of(*frame_, *plan_, pass, tile) > weights_at_once_ * items_ ||
                                        most_work(*frame_, *plan_, pass, tile).weights() > weights_at_once_))
-    for (const Window& half : halves_of(tile, plan_->statistics_block)) launch_pieces(pass, half, band);
+    for (const Window& half : halves_of(tile)) launch_pieces(pass, half, band);
   else
     launch_piece(pass, tile, band);
 }

@@ -33,7 +33,7 @@ class OpenClBackend : public Backend {
   void run(int pass, const Window& tile) override;
   void end_pass() override;
   const std::vector<float>& colors() const override { return colors_; }
-  std::vector<float>& colors_to_change() override { return colors_; }  // no band has a copy of them then
+  std::vector<float> take_colors() override { return std::move(colors_); }
   const std::vector<PixelStatistics>& statistics() const override { return statistics_; }
   const std::vector<float>& explained() const override { return explained_; }
   std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const override;

@@ -79,7 +79,7 @@ void TraceReader::read_statistics(const Scratch& scratch, const std::vector<floa
   t.mean = part(values, at_.mean, variables);
   t.inverse_deviation = part(values, at_.inverse_deviation, variables);
   t.normalized = part(values, at_.weights + own_ * neighbors, variables * neighbors);
-  t.bins = bins(scratch, static_cast<std::uint32_t>(values[at_.measured]));
+  t.bins = bins(scratch, neighbors);
   t.histograms = session_.read<std::uint32_t>(
       histograms_, 0,
       kernel::rpf_pairs(random_count(plan_), feature_count(plan_)) * bin_count(plan_) * bin_count(plan_));

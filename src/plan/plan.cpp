@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "plan/fixed_weights.h"
@@ -44,10 +43,6 @@ PassPlan plan_pass(const FrameFacts& facts, const Settings& settings, std::size_
   result.neighborhood = neighborhood_size(settings, result.box_width);
   const std::uint32_t samples = facts.max_samples_per_pixel;
   result.max_neighbors = std::max(result.neighborhood.size(samples), samples);
-  if (settings.neighbors_factor) {
-    const double enough = *settings.neighbors_factor * result.box_width * result.box_width;
-    result.enough = static_cast<std::uint32_t>(std::clamp<double>(std::floor(enough), 1, most_neighbors));
-  }
   result.offsets = offset_table(result.box_width);
   result.entropy = entropy_table(result.max_neighbors, settings.bins);
   result.nats_per_unit = static_cast<float>(ln2 / result.entropy.units_per_bit);
@@ -81,13 +76,9 @@ Plan make_plan(const FrameFacts& facts, const Settings& settings) {
   plan.entropy_slack = entropy_slack(settings.bins);
   if (settings.bias_correction)
     plan.information_bias = 0.5F * static_cast<float>((settings.bins - 1) * (settings.bins - 1));
-  if (settings.method == Method::rpf) plan.statistics_block = settings.statistics_block;
-  if (settings.statistics_samples > 0) plan.statistics_samples = std::min(settings.statistics_samples, most_neighbors);
   plan.alpha_factor = settings.alpha_factor;
   plan.noise = settings.noise;
   plan.outlier_step = settings.method == Method::rpf && settings.profile == Profile::paper;
-  plan.spread_spikes = settings.spread_spikes;
-  plan.polish = settings.polish;
   for (std::size_t pass = 0; pass < settings.box_widths.size(); ++pass)
     plan.passes.push_back(plan_pass(facts, settings, pass));
   plan_regions(plan, facts.crop);

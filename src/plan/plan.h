@@ -24,9 +24,8 @@ struct PassPlan {
   int box_width = 1;
   float growth = 1;  ///< 1 + 0.1 t of (T 5.9)
   NeighborhoodSize neighborhood;
-  std::uint32_t max_neighbors = 0;        ///< no N of this pass is larger
-  std::uint32_t enough = most_neighbors;  ///< drawing ends once there are so many neighbors, own samples included
-  std::vector<std::int8_t> offsets;       ///< offset_table(box_width)
+  std::uint32_t max_neighbors = 0;   ///< no N of this pass is larger
+  std::vector<std::int8_t> offsets;  ///< offset_table(box_width)
   EntropyTable entropy;
   float nats_per_unit = 0;  ///< ln 2 / entropy.units_per_bit
   // Of a method with fixed weights, which needs box_width and max_neighbors of the others.
@@ -50,17 +49,12 @@ struct Plan {
   std::uint32_t attempts = 9;  ///< of a draw: 1 + redraws
   int half_bins = 3;           ///< K
   int entropy_slack = 0;
-  float information_bias = 0;                         ///< times 1/N, subtracted from every mutual information
-  int statistics_block = 1;                           ///< pixels of a square of this width share what section 5 finds
-  std::uint32_t statistics_samples = most_neighbors;  ///< neighbors that section 5 looks at, at most
+  float information_bias = 0;  ///< times 1/N, subtracted from every mutual information
   float alpha_factor = 2;
   float noise = 0.02F;
-  bool explain = false;  ///< backends keep explained(); not with shared statistics
+  bool explain = false;  ///< backends keep explained()
   bool outlier_step = false;
-  bool spread_spikes = false;
-  float polish = 0;  ///< H; 0: no polish
   std::vector<PassPlan> passes;
-  Window polished;  ///< pixels to polish, frame coordinates
 };
 
 /// Pairs of variables whose mutual information section 5 measures.

@@ -16,12 +16,9 @@ Window grown(const Window& window, int margin, int width, int height) {
 }  // namespace
 
 void plan_regions(Plan& plan, const Window& crop) {
-  const int after_pass = plan.spread_spikes ? spike_reach : 0;
-  plan.polished = crop;
-  Window needed = grown(crop, plan.polish > 0 ? polish_reach : 0, plan.width, plan.height);
+  Window needed = crop;
   for (auto pass = plan.passes.rbegin(); pass != plan.passes.rend(); ++pass) {
-    pass->region = grown(needed, after_pass, plan.width, plan.height);
-    needed = pass->region;
+    pass->region = needed;
     needed = grown(needed, box_reach(pass->box_width), plan.width, plan.height);
   }
 }

@@ -39,8 +39,6 @@ void validate(const Settings& s) {
     throw Error(ErrorKind::usage,
                 fmt::format("--boxes: {} passes, at most 100 are possible; name fewer widths", s.box_widths.size()));
   require("--samples-factor", s.samples_factor.value_or(1), ranges::factor);
-  require("--neighbors-factor", s.neighbors_factor.value_or(1), ranges::factor);
-  require("--statistics-block", s.statistics_block, ranges::statistics_block);
   require("--noise", s.noise, ranges::noise);
   require("--bins", s.bins, ranges::bins);
   require("--alpha-factor", s.alpha_factor, ranges::alpha_factor);
@@ -48,7 +46,6 @@ void validate(const Settings& s) {
   require("--redraws", s.redraws, ranges::redraws);
   require("--sigma-color", s.sigma_color, ranges::sigma_color);
   require("--sigma-feature", s.sigma_feature, ranges::sigma_feature);
-  require("--polish", s.polish, ranges::polish);
   if (s.threads != 0) require("--threads", s.threads, ranges::threads);  // 0: all cores
 }
 

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "after/polish.h"
-#include "after/resolve.h"
-#include "after/spikes.h"
+#include "frame/resolve.h"
 #include "learned/network_file.h"
 #include "learned/observe.h"
 #include "rpf/error.h"
@@ -95,7 +93,6 @@ class Run {
     load_backend(backend_, settings_, prepared_.frame, std::move(prepared_.colors), plan_, [&] { meter.check(); });
     Pixels pixels = resolved();
     const double plain_energy = energy(pixels, prepared_.facts);
-    const float floor = polish_floor(prepared_.frame, pixels, plan_.carried);
     for (int pass = 0; pass < static_cast<int>(plan_.passes.size()); ++pass) {
       if (before_pass) before_pass(*backend_, plan_, pass);
       PassReport report = run_pass(pass, meter);
@@ -104,7 +101,6 @@ class Run {
       report.energy = kept == plain_energy ? 1 : kept / plain_energy;
       result.report.passes.push_back(report);
     }
-    polish(prepared_.frame, plan_, {floor, threads_, [&](std::size_t done) { meter.add_polished(done); }}, pixels);
     describe(result, pixels);
     result.report.seconds = meter.seconds();
     return result;
@@ -153,7 +149,6 @@ class Run {
       meter.add(pass, tile.pixel_count());
     }
     backend_->end_pass();
-    if (plan_.spread_spikes) spread_spikes(prepared_.frame, plan_.carried, backend_->colors_to_change());
     PassReport report = summarize(backend_->statistics(), prepared_.frame, plan);
     report.seconds = meter.seconds() - start;
     return report;

@@ -45,7 +45,6 @@ Plan measuring_plan(const FrameFacts& facts) {
   Plan plan = make_plan(facts, settings);
   std::fill(plan.minimum_tolerance.begin(), plan.minimum_tolerance.end(), std::numeric_limits<float>::infinity());
   plan.rejecting = 0;
-  plan.statistics_samples = 1;  // the trace need not measure: here every sample counts once, and shuffled too
   return plan;
 }
 
@@ -179,7 +178,7 @@ std::vector<ChannelEvidence> measure_information(PreparedFrame& prepared, const 
     if (columns[0].size() >= least_samples)
       add_readings(plan.variables, Readings(std::move(columns), pixel, terms), channels);
   }
-  prepared.colors = std::move(backend->colors_to_change());
+  prepared.colors = backend->take_colors();
   return channels;
 }
 

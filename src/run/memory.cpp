@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "after/polish.h"
-#include "after/spikes.h"
 #include "frame/prepare.h"
 #include "frame/selection.h"
 #include "rpf/error.h"
@@ -54,9 +52,7 @@ std::uint64_t memory_need(const FrameSize& size, const SampleLayout& layout, std
   without_crop.crop.reset();
   const Plan plan = make_plan(facts, without_crop);
   const std::uint64_t floats = sample_floats(layout.size(), room, facts.variables.count(), facts.carried);
-  const std::uint64_t steps =
-      (plan.spread_spikes ? spikes_bytes(size.pixels) : 0) + polish_bytes(plan, thread_count(settings));
-  return size.samples * word * floats + size.pixels * pixel_bytes(facts.carried) + steps +
+  return size.samples * word * floats + size.pixels * pixel_bytes(facts.carried) +
          make_backend(settings)->scratch_bytes(plan, size.samples);
 }
 

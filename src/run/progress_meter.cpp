@@ -17,9 +17,6 @@ double cost_of(const PassPlan& pass) {
   return fixed_cost + pass.max_neighbors + static_cast<double>(pass.fixed_weights) / weights_per_neighbor;
 }
 
-/// The cost of polishing a pixel, in the same unit.
-constexpr double polish_cost = 4;
-
 }  // namespace
 
 std::size_t tile_pixels(const PassPlan& pass, int threads) {
@@ -34,7 +31,6 @@ ProgressMeter::ProgressMeter(const Plan& plan, const Control& control)
     pixel_cost_.push_back(cost_of(pass));
     total_ += pixel_cost_.back() * static_cast<double>(pass.region.pixel_count());
   }
-  if (plan.polish > 0) total_ += polish_cost * static_cast<double>(plan.polished.pixel_count());
 }
 
 double ProgressMeter::seconds() const {
@@ -44,11 +40,6 @@ double ProgressMeter::seconds() const {
 void ProgressMeter::add(int pass, std::size_t pixels) {
   done_ += pixel_cost_[static_cast<std::size_t>(pass)] * static_cast<double>(pixels);
   tell(pass);
-}
-
-void ProgressMeter::add_polished(std::size_t pixels) {
-  done_ += polish_cost * static_cast<double>(pixels);
-  tell(passes_ - 1);
 }
 
 void ProgressMeter::add_part(double part) {

@@ -19,8 +19,6 @@ class ProgressMeter {
 
   /// Counts pixels of a pass as done and tells the caller. Throws Error(cancelled) where the caller wants to stop.
   void add(int pass, std::size_t pixels);
-  /// The same for the polish.
-  void add_polished(std::size_t pixels);
   /// Counts a part of a learned estimate, which is 1 as a whole.
   void add_part(double part);
   /// Only tells the caller again, in the middle of something long.

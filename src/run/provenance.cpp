@@ -17,25 +17,20 @@ std::string neighborhood_text(const Settings& s) {
                      : s.profile == Profile::paper ? "b^2 s / 2"
                                                    : "b^2 / 2";
   if (s.max_samples > 0) text += fmt::format(", at most {}", s.max_samples);
-  return s.neighbors_factor ? text + fmt::format(", until {} b^2 are accepted", *s.neighbors_factor) : text;
-}
-
-std::string steps_text(const Settings& s) {
-  return fmt::format("spread-spikes={} polish={}", s.spread_spikes, s.polish);
+  return text;
 }
 
 std::string choices_text(const Settings& s) {
   return fmt::format(
-      "statistics-block={} statistics-samples={} alpha-factor={} position-scale={} redraws={} reject-second-hit={} "
+      "alpha-factor={} position-scale={} redraws={} reject-second-hit={} "
       "bias-correction={} clamp-negative={} clamp-infinite={} drop-uninformative={}",
-      s.statistics_block, s.statistics_samples, s.alpha_factor, s.position_scale, s.redraws, s.reject_second_hit,
-      s.bias_correction, s.clamp_negative, s.clamp_infinite, s.drop_uninformative);
+      s.alpha_factor, s.position_scale, s.redraws, s.reject_second_hit, s.bias_correction, s.clamp_negative,
+      s.clamp_infinite, s.drop_uninformative);
 }
 
 /// What Random Parameter Filtering was told.
 void describe_rpf(const Settings& settings, const Report& report, Metadata& m) {
   m["rpf:boxes"] = fmt::format("{}", fmt::join(settings.box_widths, ","));
-  m["rpf:steps"] = steps_text(settings);
   m["rpf:profile"] = std::string(settings.profile == Profile::paper ? "paper" : "thesis");
   m["rpf:neighborhood"] = neighborhood_text(settings);
   m["rpf:noise"] = settings.noise;
@@ -57,7 +52,6 @@ void describe_learned(const Settings& settings, const Report& report, Metadata& 
 /// What a method with fixed weights was told.
 void describe_fixed_weights(const Settings& settings, Metadata& m) {
   m["rpf:boxes"] = fmt::format("{}", fmt::join(settings.box_widths, ","));
-  m["rpf:steps"] = steps_text(settings);
   if (settings.method != Method::gaussian) m["rpf:sigmaColor"] = settings.sigma_color;
   if (settings.method == Method::cross_bilateral) m["rpf:sigmaFeature"] = settings.sigma_feature;
   m["rpf:choices"] =

@@ -39,8 +39,8 @@ class Backend {
   virtual void end_pass() = 0;
   /// The samples' colors as after the latest ended pass, scaled radiance: [sample][carried].
   virtual const std::vector<float>& colors() const = 0;
-  /// The same, to be changed: between load() or end_pass() and the next run() or trace(), no longer.
-  virtual std::vector<float>& colors_to_change() = 0;
+  /// The same, given away: nothing can be run after it.
+  virtual std::vector<float> take_colors() = 0;
   /// [pixel], of the latest pass run.
   virtual const std::vector<PixelStatistics>& statistics() const = 0;
   /// Of the latest tile run where Plan::explain asks for it: for every pixel, row by row, the mutual information of all

@@ -31,8 +31,8 @@ struct PixelTrace {
   std::vector<float> mean, inverse_deviation;  ///< [V] 0 where the variable counts as constant
   std::vector<float> normalized;               ///< [N][V]
 
-  // Section 5, of the pixel that measures for its block (the pixel itself where nothing is shared).
-  std::vector<std::uint8_t> bins;         ///< [neighbors measured][V] bin + K
+  // Section 5.
+  std::vector<std::uint8_t> bins;         ///< [N][V] bin + K
   std::vector<std::uint32_t> histograms;  ///< [pair][B][B], row: first variable; pairs as in mutual_information
   std::vector<float> mutual_information;  ///< colors x (position, random, features), then features x (position, random)
   FilterWeights filter_weights;

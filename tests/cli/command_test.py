@@ -119,7 +119,7 @@ class CommandTest(CommandCase):
             self.assertEqual(self.output.read_bytes(), other.read_bytes())
 
     def test_an_option_of_the_published_algorithm_asks_for_it(self):
-        for arguments in (["--profile", "paper"], ["--noise=0.5"], ["--boxes", "5"], ["--spread-spikes"], ["--seed", "3"]):
+        for arguments in (["--profile", "paper"], ["--noise=0.5"], ["--boxes", "5"], ["--seed", "3"]):
             self.expect(run(EXAMPLE, "-o", self.output, "-q", "--crop", "4x4+20+20", *arguments), 0)
             self.assertIn(b"rpf:method\0string\0\x03\0\0\0rpf", self.output.read_bytes())
             self.expect(run(EXAMPLE, "-o", self.output, "--preset", "fast", *arguments), 2, "means nothing to --method learned")
@@ -142,10 +142,10 @@ class CommandTest(CommandCase):
         self.expect(run(EXAMPLE, "-o", self.output, "--time-budget", "3s", "--preset", "fast"), 2, "excludes")
 
     def test_records_how_an_image_was_made(self):
-        self.expect(run(EXAMPLE, "-o", self.output, "--seed", "7", "--spread-spikes", "--polish", "0.15", *QUICK), 0)
+        self.expect(run(EXAMPLE, "-o", self.output, "--seed", "7", "--bias-correction", *QUICK), 0)
         header = self.output.read_bytes()[:4096]
-        for name in (b"rpf:software", b"rpf:profile", b"rpf:boxes", b"rpf:noise", b"rpf:drawSeed", b"rpf:steps",
-                     b"spread-spikes=true polish=0.15"):
+        for name in (b"rpf:software", b"rpf:profile", b"rpf:boxes", b"rpf:noise", b"rpf:drawSeed", b"rpf:choices",
+                     b"bias-correction=true"):
             self.assertIn(name, header)
 
     def test_methods_filter_samples_and_say_so(self):
@@ -284,7 +284,7 @@ class CommandTest(CommandCase):
                                 ([EXAMPLE, "-o", self.output, "--crop", "9x9+9999+0"], "not inside"),
                                 ([EXAMPLE, "-o", self.output, "--map", "feature.N.X"], "SLOT=CHANNEL"),
                                 ([EXAMPLE, "-o", self.output, "--noise", "0"], "noise"),
-                                ([EXAMPLE, "-o", self.output, "--polish", "11"], "--polish"), ([EXAMPLE, "--nonsense"], "nonsense"),
+                                ([EXAMPLE, "-o", self.output, "--redraws", "16"], "--redraws"), ([EXAMPLE, "--nonsense"], "nonsense"),
                                 ([EXAMPLE, "-o", self.output, "--backend", "abacus"], "abacus")):
             with self.subTest(text=text):
                 self.expect(run(*arguments), 2, text)

@@ -39,9 +39,9 @@ class MessagesTest(CommandCase):
     # ---- numbers
 
     RANGES = {"--threads": ("1", "1048576"), "--max-memory": ("1", "1073741824"), "--noise": ("1e-12", "1e+12"), "--bins": ("3", "31"), "--redraws": ("0", "15"),
-              "--statistics-block": ("1", "16"), "--samples-factor": ("1e-09", "1000000"), "--neighbors-factor": ("1e-09", "1000000"), "--max-samples": ("1", "4294967295"),
-              "--statistics-samples": ("1", "4294967295"), "--alpha-factor": ("0", "1000000"), "--position-scale": ("1e-06", "1000000"), "--seed": ("0", "4294967295"),
-              "--polish": ("0", "10"), "--sigma-color": ("1e-30", "1e+30"), "--sigma-feature": ("1e-06", "1000000"), "--boxes": ("1", "255")}
+              "--samples-factor": ("1e-09", "1000000"), "--max-samples": ("1", "4294967295"),
+              "--alpha-factor": ("0", "1000000"), "--position-scale": ("1e-06", "1000000"), "--seed": ("0", "4294967295"),
+              "--sigma-color": ("1e-30", "1e+30"), "--sigma-feature": ("1e-06", "1000000"), "--boxes": ("1", "255")}
 
     def test_every_number_of_the_filter(self):
         for option, (least, most) in self.RANGES.items():
@@ -50,7 +50,7 @@ class MessagesTest(CommandCase):
                 if option == "--boxes" and value == "1,5":
                     continue
                 self.expect_line(run(*method, self.samples, "-o", self.output, f"{option}={value}"), option, least, most, "such as")
-        for option, value in (("--bins", "4"), ("--boxes", "4"), ("--threads", "0"), ("--threads", "1.5"), ("--polish", "1e-9"), ("--boxes", "3,,5")):
+        for option, value in (("--bins", "4"), ("--boxes", "4"), ("--threads", "0"), ("--threads", "1.5"), ("--boxes", "3,,5")):
             self.expect_line(run(self.samples, "-o", self.output, option, value), option, "such as")
         self.assertFalse(self.output.exists())
 

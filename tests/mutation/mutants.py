@@ -11,9 +11,9 @@ NEIGHBORHOOD, STATISTICS = "src/cpu/neighborhood.cpp", "src/cpu/statistics.cpp"
 WEIGHTING, BACKEND = "src/cpu/weighting.cpp", "src/cpu/cpu_backend.cpp"
 PLAN, TABLES, CLEAN = "src/plan/plan.cpp", "src/plan/tables.cpp", "src/frame/clean.cpp"
 SIZE, REGIONS, RANGES = "src/plan/neighborhood_size.cpp", "src/plan/regions.cpp", "include/rpf/ranges.h"
-PREPARE, DRIVER, RESOLVE = "src/frame/prepare.cpp", "src/run/driver.cpp", "src/after/resolve.cpp"
+PREPARE, DRIVER, RESOLVE = "src/frame/prepare.cpp", "src/run/driver.cpp", "src/frame/resolve.cpp"
 MERGE, RAW_READER, HDR_FLIP = "src/frame/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
-SELECTION, SPIKES, POLISH_TILE = "src/frame/selection.cpp", "src/after/spikes.cpp", "src/after/polish_tile.cpp"
+SELECTION = "src/frame/selection.cpp"
 INFORMATION, INFORMATIVE = "src/run/information.cpp", "src/run/informative.cpp"
 SCENE = "src/scene/"
 BOTH = "Profiles/BothProfiles."
@@ -198,8 +198,8 @@ MUTANTS = [
            BOTH + "KeepsAConstantImageExactly/*", "filter: rounding leaves the convex hull"),
     Mutant("hull_largest", MATH, "return mean > largest ? largest : mean;", "return mean;",
            "Filtered.CannotLeaveTheHull", "filter: rounding leaves the convex hull"),
-    Mutant("colors_not_carried", BACKEND, "  for (const std::uint32_t pixel : pixels) {\n    if (frame_->samples(pixel) == 0) continue;",
-           "  for (const std::uint32_t pixel : pixels) {\n    if (frame_->samples(pixel) == 0) continue;\n"
+    Mutant("colors_not_carried", BACKEND, "if (frame_->samples(pixel) == 0 || must_stop()) return;",
+           "if (frame_->samples(pixel) == 0 || must_stop()) return;\n"
            "std::vector<float> colors_;\n"
            "for (std::size_t s = 0; s < frame_->sample_count(); ++s)\n"
            "  colors_.insert(colors_.end(), frame_->record(s), frame_->record(s) + 3);",
@@ -278,68 +278,16 @@ MUTANTS = [
            "oracle sample_weight image", "pixel mean: 0 / 0 where no sample has a weight"),
     Mutant("empty_pixel", RESOLVE, "if (frame.samples(pixel) > 0) mean_of_samples", "if (colors.size() > 0) mean_of_samples",
            "oracle spp_varying_thesis image", "pixel mean: 0 / 0 without samples"),
-    Mutant("tile_origin", BACKEND, "(first_x + i % across) * side", "(i % across) * side",
+    Mutant("tile_origin", BACKEND, "tile.x + i % tile.width", "i % tile.width",
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "tiles: tile-relative pixel"),
-    Mutant("last_tile_lost", "src/run/tiles.cpp", "y < end_y; y += height)", "y + height <= end_y; y += height)",
+    Mutant("last_tile_lost", "src/run/tiles.cpp", "y < region.height; y += height)", "y + height <= region.height; y += height)",
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "tiles: the last band is skipped"),
     Mutant("crop_margin", REGIONS, "box_reach(pass->box_width)", "box_reach(pass->box_width) - 1",
            BOTH + "GivesTheSamePixelsForACrop/*", "crop: margin one pixel short"),
 
-    # ---------------------------------------------------------------- steps beyond the sources
+    # ---------------------------------------------------------------- channels
     Mutant("first_hit", SELECTION, "if (!is_second_hit(group)) wanted", "wanted",
            "Selection.LeavesOutSecondHitsOnRequest", "selection: `first` is `all`"),
-    Mutant("block_measured_by_all", BACKEND, "if (pixel == *leader) measure", "measure",
-           "oracle block2_varying start", "statistics block: every pixel measures"),
-    Mutant("block_measured_by_last", BACKEND,
-           "for (const std::uint32_t pixel : pixels_of(frame, block))\n"
-           "    if (frame.samples(pixel) > 0) return pixel;\n  return std::nullopt;",
-           "std::optional<std::uint32_t> last;\n  for (const std::uint32_t pixel : pixels_of(frame, block))\n"
-           "    if (frame.samples(pixel) > 0) last = pixel;\n  return last;",
-           "oracle block3_gaps bins", "statistics block: its last pixel measures"),
-    Mutant("block_leader_moves", BACKEND, "std::find(pixels.begin(), pixels.end(), *leader) == pixels.end()", "false",
-           "Filter.StatisticsBlockGivesTheSamePixelsForACrop", "statistics block: what was measured before is used"),
-    Mutant("block_tiles_with_gaps", "src/run/tiles.cpp", "x += width)", "x += width + block)",
-           "Filter.StatisticsBlockGivesTheSameBitsForThreadsAndTiles", "statistics block: tiles leave pixels out"),
-    Mutant("block_out_of_range", RANGES, "statistics_block{1, 16,", "statistics_block{1, 17,",
-           "Filter.RefusesEffortThatCannotBeAndNamesIt", "statistics block: 17 is accepted"),
-    Mutant("samples_all_measured", STATISTICS, "std::min(n.size(), plan.statistics_samples)", "n.size()",
-           "oracle statistics_samples bins", "statistics samples: all neighbors are measured"),
-    Mutant("samples_bias", STATISTICS, "static_cast<float>(measured)", "static_cast<float>(n.size())",
-           "oracle statistics_samples mutual_information", "statistics samples: N of the correction"),
-    Mutant("enough_never", NEIGHBORHOOD, "begin < draws && n.size() < p.enough", "begin < draws",
-           "oracle neighbors_factor neighbors", "neighbors factor: drawing does not end"),
-    Mutant("enough_and_one", NEIGHBORHOOD, "n.size() < p.enough", "n.size() <= p.enough",
-           "oracle neighbors_factor_own neighbors", "neighbors factor: one sample more than enough"),
-    Mutant("enough_least", PLAN, "std::floor(enough), 1, most_neighbors", "std::floor(enough), 2, most_neighbors",
-           "oracle neighbors_factor_own neighbors", "neighbors factor: two samples at least"),
-    Mutant("portion", MATH, "RPF_DRAWN_AT_ONCE 256u", "RPF_DRAWN_AT_ONCE 128u",
-           "oracle neighbors_factor neighbors", "neighbors factor: tested after half a portion"),
-    Mutant("spikes_not_carried_on", DRIVER, "if (plan_.spread_spikes)", "if (pass > 0 && plan_.spread_spikes)",
-           "oracle spikes start", "spikes: not spread after the first pass"),
-    Mutant("spikes_near", "src/plan/regions.h", "spike_spread = 2", "spike_spread = 1",
-           "oracle spikes_varying image", "spikes: shared with the 3x3 pixels around them"),
-    Mutant("spikes_left_out", DRIVER, "if (plan_.spread_spikes)", "if (false)",
-           "Filter.StepsChangeTheImageOfTheTestFrame", "spikes: not spread"),
-    Mutant("spikes_margin", REGIONS, "plan.spread_spikes ? spike_reach : 0", "plan.spread_spikes ? spike_spread : 0",
-           "Filter.StepsGiveTheSamePixelsForACrop", "spikes: a crop's margin one pixel short"),
-    Mutant("spikes_share", SPIKES, "static_cast<float>(receivers)", "25.0F",
-           "Spikes.AreFoundBeforeAnyIsSpread", "spikes: light is lost at the border"),
-    Mutant("spikes_below_black", SPIKES, "std::max(brightest / own, 0.0F)", "brightest / own",
-           "Spikes.LoseAllTheirLightAmongNegativeNeighborsNotMore", "spikes: more is taken than there is"),
-    Mutant("spikes_empty_pixels", SPIKES, "if (frame_.samples(pixel(u, v)) > 0) visit", "visit",
-           "Spikes.LeaveOutEmptyPixelsAndRespectCountsAndWeights", "spikes: empty pixels get light"),
-    Mutant("polish_margin", REGIONS, "plan.polish > 0 ? polish_reach : 0", "plan.polish > 0 ? polish_radius : 0",
-           "Filter.StepsGiveTheSamePixelsForACrop", "polish: a crop's margin one pixel short"),
-    Mutant("polish_border", POLISH_TILE, "places[x] = p[x] * q[x];", "places[x] = p[x] * q[x] + 1.0F;",
-           "Polish.AveragesTwoPixelsByHand", "polish: patches outside the image count"),
-    Mutant("polish_guides", POLISH_TILE, 'group == "N" || group == "albedo"', 'group == "N"',
-           "Polish.KeepsAnEdgeThatAGuideShowsAndNoOther", "polish: albedo does not guard edges"),
-    Mutant("polish_guide_noise", POLISH_TILE, "(apart * apart - variance)", "(apart * apart)",
-           "Polish.IsItsDefinition", "polish: noise of a guide counts as an edge"),
-    Mutant("polish_empty_pixels", POLISH_TILE, "* valid[x];", "* (valid[x] + 1.0F);",
-           "Polish.LeavesOutEmptyPixels", "polish: pixels without samples are averaged"),
-    Mutant("polish_floor", "src/after/polish.cpp", "count += 3;", "count += 1;",
-           "Polish.HasAFloorOfAPartOfTheMeanRadiance", "polish: another floor"),
 
     # ---------------------------------------------------------------- files: merging and raw samples
     Mutant("merge_order", MERGE, "merged.record(next[p]));\n    next[p] += count;", "merged.record(next[p]));",

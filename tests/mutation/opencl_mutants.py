@@ -33,8 +33,6 @@ MUTANTS = [
            "conformance redraws/1 neighbors", "draws: an attempt less"),
     Mutant("cl_border", NEIGHBORHOOD, "to_x < 0 | to_x >= pass->width", "to_x < 0 | to_x > pass->width",
            DOF + "neighbors", "draws: a column behind the image"),
-    Mutant("cl_enough", NEIGHBORHOOD, "begin < draws && count < pass->enough", "begin < draws",
-           "conformance neighbors-factor/0.3 neighbors", "draws: enough neighbors do not end them"),
     Mutant("cl_rejection", NEIGHBORHOOD, "return !any_lane(rejected);", "return !rejected.s0;",
            DOF + "neighbors", "rejection: by the first feature alone"),
 
@@ -70,14 +68,6 @@ MUTANTS = [
     Mutant("cl_beta", FILTER, "RPF_FEATURES, pass->alpha_factor, pass->growth", "RPF_FEATURES, pass->alpha_factor, 1.0f",
            "conformance alpha-factor/0 beta", "growth ignored"),
 
-    Mutant("cl_measured", FILTER, "min(neighbors, pass->measured)", "neighbors",
-           "conformance statistics-samples/20 bins", "all neighbors are measured"),
-    Mutant("cl_leader", FILTER, "if (samples_of(frame, pass, pixel) > 0) return pixel;",
-           "if (samples_of(frame, pass, pixel) > 0 && (pixel & 1)) return pixel;",
-           "conformance statistics-block/2 bins", "a block's pixels at even places do not measure"),
-    Mutant("cl_members", FILTER, "RPF_PHASES > 3 ? pixel == leader : 0", "RPF_PHASES > 3",
-           "conformance statistics-block/2 bins", "every pixel of a block measures"),
-
     # ---------------------------------------------------------------- 6., 7. filter and outliers
     Mutant("cl_distance", WEIGHTING, "distance[i] += difference * difference;", "distance[i] += fabs(difference);",
            DOF + "weights", "distance is not squared"),
@@ -92,7 +82,7 @@ MUTANTS = [
            PAPER + "colors", "energy of the outliers"),
     Mutant("cl_items", FILTER, "i += (uint)get_global_size(0)", "i += (uint)get_global_size(0) + 1",
            DOF + "statistics", "pixels are left out"),
-    Mutant("cl_statistics", FILTER, "statistics.beta = rpf_mean(weights->beta, RPF_FEATURES);", "statistics.beta = weights->beta[0];",
+    Mutant("cl_statistics", FILTER, "statistics.beta = rpf_mean(weights.beta, RPF_FEATURES);", "statistics.beta = weights.beta[0];",
            DOF + "statistics", "one feature instead of the mean"),
     Mutant("cl_explained_information", FILTER, "explained[i] = information[i];", "explained[i] = information[0];",
            "conformance explain/4spp explained", "one pair for all"),

@@ -8,9 +8,8 @@ import numpy as np
 
 SETTINGS = {"profile": "thesis", "boxes": [9, 7, 5, 3], "noise": 0.02, "bins": 7, "seed": 1,
             "random": ["lens", "time"], "features": ["N", "P", "albedo"], "samples_factor": None, "max_samples": None,
-            "neighbors_factor": None, "statistics_block": 1, "statistics_samples": None, "position_scale": 20,
-            "reject_second_hit": False, "bias_correction": False, "alpha_factor": 2, "redraws": 8,
-            "spread_spikes": False, "method": "rpf", "sigma_color": 30, "sigma_feature": 0.5}
+            "position_scale": 20, "reject_second_hit": False, "bias_correction": False, "alpha_factor": 2, "redraws": 8,
+            "method": "rpf", "sigma_color": 30, "sigma_feature": 0.5}
 
 
 def uniform(rng, n):
@@ -229,19 +228,6 @@ CASES = {
     "radiance_1e30": lambda: simple(35, 9, 7, profile="paper", change=scaled_radiance(1e30)),
     "far_world": lambda: simple(36, 9, 7, change=far_world(1e5)),       # spreads are far above 1e-6 of the magnitude
     "far_small_world": lambda: simple(36, 9, 7, change=far_world(100)),  # many are below, and count as none
-    # Frames whose size is no multiple of the block: 11 x 8 of 2 and of 3, with empty pixels.
-    "block2_varying": lambda: varying(37, statistics_block=2),
-    "block3_varying_paper": lambda: varying(38, profile="paper", statistics_block=3, random=["light"]),
-    "block3_gaps": lambda: simple(39, spp=with_gaps(39), statistics_block=3),       # squares that lack their first pixels
-    "statistics_samples": lambda: simple(40, statistics_samples=12, profile="paper", bias_correction=True),
-    "statistics_samples_own": lambda: simple(41, 9, 7, spp=8, statistics_samples=5, random=["lens"]),    # n < s
-    "neighbors_factor": lambda: simple(42, 9, 7, boxes=[9, 5], samples_factor=12.0, neighbors_factor=2.5),
-    "neighbors_factor_own": lambda: varying(43, boxes=[9, 3], samples_factor=4.0, neighbors_factor=0.06),
-    "shared_and_stopped": lambda: varying(44, boxes=[9, 5], samples_factor=9.0, neighbors_factor=2.0, profile="paper",
-                                          statistics_block=2, statistics_samples=64),
-    "spikes": lambda: simple(45, profile="paper", change=add_fireflies, spread_spikes=True),
-    "spikes_varying": lambda: simple(46, spp=with_gaps(46), change=add_weighted_fireflies, statistics_block=2,
-                                     spread_spikes=True),
     "one_pixel": lambda: simple(33, 1, 1, spp=5, profile="paper", boxes=[5, 3]),
     "one_row": lambda: simple(34, 13, 1, profile="paper", random=["lens", "light"]),
     **FIXED_CASES,

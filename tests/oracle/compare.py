@@ -44,13 +44,13 @@ class TraceDecisions(oracle.Decisions):
         self.close_calls["neighbors"] += int((choice != oracle.accepted(distance, limit)).sum())
         return choice
 
-    def bins(self, normalized, K, n):
-        own, traced = oracle.bins_of(normalized[:n], K), np.asarray(self.traced["bins"])
+    def bins(self, normalized, K):
+        own, traced = oracle.bins_of(normalized, K), np.asarray(self.traced["bins"])
         if traced.shape != own.shape:
             return own
         slack = normalized_bound(normalized)
-        possible = ((traced >= oracle.bins_of(normalized[:n] - slack, K))
-                    & (traced <= oracle.bins_of(normalized[:n] + slack, K)))
+        possible = ((traced >= oracle.bins_of(normalized - slack, K))
+                    & (traced <= oracle.bins_of(normalized + slack, K)))
         self.close_calls["bins"] += int((possible & (traced != own)).sum())
         return np.where(possible, traced, own)
 
@@ -174,7 +174,7 @@ def check_neighborhood(report, frame, pixel, traced, stages, where):
 
 
 def check_statistics(report, frame, traced, stages, where):
-    """Moments over N and normalized values; bins and histograms of the pixel that measured."""
+    """Moments over N and normalized values; bins and histograms."""
     magnitude, span = spread(frame.values[stages["neighbors"]])
     bounds = {"mean": TOLERANCE["mean"] * magnitude, "std": TOLERANCE["std"] * span,
               "normalized": normalized_bound(stages["normalized"]), "bins": 0}

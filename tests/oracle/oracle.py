@@ -8,13 +8,11 @@ V = 3 + 2 + n + m variables, always in the order color, position, random paramet
 """
 import numpy as np
 
-import spikes
 from scene_frame import FIRST_RANDOM
 
 EPSILON = 1e-10             # eps of T 5.4-5.6
 NEGLIGIBLE_STD = 1e-6       # section 4: a standard deviation below this part of the largest magnitude is 0
 OUTLIER_SLACK = 1e-5        # section 7: this near to one standard deviation counts as equal to it
-DRAWN_AT_ONCE = 256         # draws between two tests whether a neighborhood has enough samples
 
 
 # ---------------------------------------------------------------- 3. neighborhood
@@ -31,12 +29,6 @@ def requested_samples(settings, box, s):
 def draw_count(settings, box, s):
     """The number of draws, M - s."""
     return max(requested_samples(settings, box, s) - s, 0)
-
-
-def enough_samples(settings, box):
-    """The size of a neighborhood at which drawing ends: neighbors_factor b^2, at least 1; infinite where it never does."""
-    factor = settings["neighbors_factor"]
-    return np.inf if factor is None else max(int(np.floor(factor * box * box)), 1)
 
 
 def moments(values):
@@ -141,17 +133,6 @@ def pair_information(frame, bins):
     return histograms, information
 
 
-def measured_neighbors(settings, n):
-    """How many of n neighbors section 5 looks at, the first ones."""
-    return n if settings["statistics_samples"] is None else min(n, settings["statistics_samples"])
-
-
-def square_of(frame, pixel):
-    """The square (column, row) of statistics_block pixels to each side that the pixel lies in."""
-    side = frame.settings["statistics_block"]
-    return pixel % frame.width // side, pixel // frame.width // side
-
-
 def dependency_sums(frame, information):
     """The D of section 5 from the mutual information [V, V]: dict of arrays."""
     color, position = slice(0, 3), slice(3, FIRST_RANDOM)
@@ -228,29 +209,24 @@ class Decisions:
         """Which candidates [C] stay; distance [C, m], limit [m]."""
         return accepted(distance, limit)
 
-    def bins(self, normalized, K, n):
-        """The bins [n, V] of the first n normalized values [N, V]."""
-        return bins_of(normalized[:n], K)
+    def bins(self, normalized, K):
+        """The bins [N, V] of the normalized values [N, V]."""
+        return bins_of(normalized, K)
 
     def outliers(self, filtered):
         """Which of the filtered samples [s, 3] are outliers."""
         return outliers(filtered)
 
 
-def find_neighbors(frame, pixel, t, table, decide):
+def find_neighbors(frame, pixel, table, decide):
     """Section 3: dict of the own moments, the tolerance, the number of candidates and the neighbors [N]."""
     own = own_features(frame, pixel)
     own_mean, own_std = moments(own)
     limit = tolerance(frame, own, own_std)
-    enough = enough_samples(frame.settings, frame.settings["boxes"][t])
-    neighbors, drawn = frame.own(pixel), 0
-    for begin in range(0, len(table), DRAWN_AT_ONCE):
-        if len(neighbors) >= enough:
-            break
-        found = candidates(frame, pixel, table[begin:begin + DRAWN_AT_ONCE])
-        keep = decide.accepted(found, distances(frame, found, own_mean), limit)
-        neighbors, drawn = np.concatenate([neighbors, found[keep]]), drawn + len(found)
-    return {"own_mean": own_mean, "own_std": own_std, "tolerance": limit, "drawn": drawn, "neighbors": neighbors}
+    found = candidates(frame, pixel, table)
+    keep = decide.accepted(found, distances(frame, found, own_mean), limit)
+    neighbors = np.concatenate([frame.own(pixel), found[keep]])
+    return {"own_mean": own_mean, "own_std": own_std, "tolerance": limit, "drawn": len(found), "neighbors": neighbors}
 
 
 def normalization(values):
@@ -262,7 +238,7 @@ def normalization(values):
 def dependencies(frame, normalized, t, decide):
     """Section 5: dict of everything from the bins to alpha and beta, from the normalized neighborhood [N, V]."""
     settings = frame.settings
-    bins = decide.bins(normalized, (settings["bins"] - 1) // 2, measured_neighbors(settings, len(normalized)))
+    bins = decide.bins(normalized, (settings["bins"] - 1) // 2)
     histograms, information = pair_information(frame, bins)
     W_c_r, W_f_r, W_c_f, fraction_random = fractions(dependency_sums(frame, information))
     return {"bins": bins, "histograms": histograms,
@@ -280,26 +256,20 @@ def filtering(frame, s, color, stages, decide):
     return {"filtered": filtered, "color": replace_outliers(filtered, decide.outliers(filtered))}
 
 
-def filter_pixel(frame, pixel, t, color, table, decide, measured):
-    """One pixel of pass t: dict of all stages. color [S, 3] is c' of the whole frame; measured {square: section 5 of its
-    first pixel} is added to by the first pixel of a square."""
-    stages = {"start": color[frame.own(pixel)]} | find_neighbors(frame, pixel, t, table, decide)
+def filter_pixel(frame, pixel, t, color, table, decide):
+    """One pixel of pass t: dict of all stages. color [S, 3] is c' of the whole frame."""
+    stages = {"start": color[frame.own(pixel)]} | find_neighbors(frame, pixel, table, decide)
     stages |= normalization(frame.values[stages["neighbors"]])
-    square = square_of(frame, pixel)
-    if square not in measured:
-        measured[square] = dependencies(frame, stages["normalized"], t, decide)
-    stages |= measured[square]
+    stages |= dependencies(frame, stages["normalized"], t, decide)
     return stages | filtering(frame, frame.counts[pixel], color, stages, decide)
 
 
 def run_pass(frame, t, color, draws, decisions):
     """Pass t over all pixels that have samples, row by row: {pixel: stages} and the next c' [S, 3]."""
-    pixels, result, measured = {}, color.copy(), {}
+    pixels, result = {}, color.copy()
     for pixel in np.flatnonzero(frame.counts):
-        pixels[pixel] = filter_pixel(frame, pixel, t, color, draws(t, pixel), decisions(t, pixel), measured)
+        pixels[pixel] = filter_pixel(frame, pixel, t, color, draws(t, pixel), decisions(t, pixel))
         result[frame.own(pixel)] = pixels[pixel]["color"]
-    if frame.settings["spread_spikes"]:
-        result = spikes.spread(frame, resolve(frame, result), result)
     return pixels, result
 
 

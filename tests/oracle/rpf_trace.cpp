@@ -41,15 +41,11 @@ rpf::Settings read_settings(const json& s) {
   settings.features = optional<std::vector<std::string>>(s, "features");
   settings.samples_factor = optional<double>(s, "samples_factor");
   settings.max_samples = optional<std::uint32_t>(s, "max_samples").value_or(0);
-  settings.neighbors_factor = optional<double>(s, "neighbors_factor");
-  settings.statistics_block = s.at("statistics_block");
-  settings.statistics_samples = optional<std::uint32_t>(s, "statistics_samples").value_or(0);
   settings.position_scale = s.at("position_scale");
   settings.reject_second_hit = s.at("reject_second_hit");
   settings.bias_correction = s.at("bias_correction");
   settings.alpha_factor = s.at("alpha_factor");
   settings.redraws = s.at("redraws");
-  settings.spread_spikes = s.at("spread_spikes");
   return settings;
 }
 

@@ -19,8 +19,8 @@ constexpr double estimated_constant = 2e-6;
 /// magnitude within reach.
 constexpr double estimated_bound = 2e-5;
 
-/// A pixel of a network's picture against the mean of its samples by the shares that are told: shares are floats, and the
-/// passes rounded each of four means of 25 once more.
+/// A pixel of a network's picture against the mean of its samples by the shares that are told: shares are floats, and
+/// the passes rounded each of four means of 25 once more.
 constexpr double remade_pixel = 1e-5;
 
 /// Entries of the offset table per offset against the exact Gaussian: each side is rounded to whole entries.
@@ -37,10 +37,6 @@ constexpr double formula = 1e-6;
 
 /// The outlier step gives back the energy it took: relative error of one float mean and one addition a sample.
 constexpr double outlier_energy = 1e-6;
-
-/// Polish in float against double, as part of the range of the values: exponents near 1 that are off by some
-/// 1e-7 of themselves change weights by as much. Measured on noise: 8e-8.
-constexpr double polish = 5e-7;
 
 /// The sum of a pixel's float mean against a double mean.
 constexpr double pixel_mean = 1e-6;

@@ -188,14 +188,12 @@ TEST(Explain, SaysWhatItCannotExplain) {
     }
     return ErrorKind::internal;
   };
-  Settings two_passes = explain_settings(), cropped = two_passes, shared = two_passes, small = two_passes;
+  Settings two_passes = explain_settings(), cropped = two_passes, small = two_passes;
   two_passes.box_widths = {9, 5};
   cropped.crop = Window{0, 0, 4, 4};
-  shared.statistics_block = 2;
   small.max_memory = 1000;
   EXPECT_EQ(kind(two_passes, {}), ErrorKind::usage);
   EXPECT_EQ(kind(cropped, {}), ErrorKind::usage);
-  EXPECT_EQ(kind(shared, {}), ErrorKind::usage);
   for (const Method method : {Method::cross_bilateral, Method::learned}) {
     Settings other = explain_settings();
     other.method = method;

@@ -33,19 +33,15 @@ SampleBuffer frame_with_a_long_pixel(std::uint32_t samples) {
   return result;
 }
 
-TEST(LaunchWork, HalvesAreTheTileAndWholeBlocksWhereTheyCan) {
-  for (const int block : {1, 2, 8})
-    for (const Window& tile :
-         {Window{0, 0, 2, 1}, Window{3, 5, 1, 2}, Window{0, 0, 16, 16}, Window{5, 0, 20, 8}, Window{1, 1, 7, 7}}) {
-      const auto [a, b] = halves_of(tile, block);
-      EXPECT_EQ(a.pixel_count() + b.pixel_count(), tile.pixel_count());
-      EXPECT_GT(a.pixel_count(), 0U);
-      EXPECT_GT(b.pixel_count(), 0U);
-      EXPECT_TRUE(b.x > a.x ? b.x == a.x + a.width && b.y == a.y : b.y == a.y + a.height && b.x == a.x);
-    }
-  const auto [left, right] = halves_of({0, 0, 16, 8}, 8);
-  EXPECT_EQ(left.width, 8);
-  EXPECT_EQ(right.x, 8);
+TEST(LaunchWork, HalvesAreTheTile) {
+  for (const Window& tile :
+       {Window{0, 0, 2, 1}, Window{3, 5, 1, 2}, Window{0, 0, 16, 16}, Window{5, 0, 20, 8}, Window{1, 1, 7, 7}}) {
+    const auto [a, b] = halves_of(tile);
+    EXPECT_EQ(a.pixel_count() + b.pixel_count(), tile.pixel_count());
+    EXPECT_GT(a.pixel_count(), 0U);
+    EXPECT_GT(b.pixel_count(), 0U);
+    EXPECT_TRUE(b.x > a.x ? b.x == a.x + a.width && b.y == a.y : b.y == a.y + a.height && b.x == a.x);
+  }
 }
 
 TEST(LaunchWork, CountsWhatIsThere) {
@@ -67,7 +63,6 @@ struct Case {
   const char* name;
   Method method;
   Profile profile;
-  int block;
   bool explain;
 };
 
@@ -78,7 +73,6 @@ TEST_P(LongPixels, AreTheSameBitsHoweverTheyAreCut) {
   settings.method = GetParam().method;
   settings.profile = GetParam().profile;
   settings.box_widths = {5};
-  settings.statistics_block = GetParam().block;
   const PreparedFrame prepared = prepare(frame_with_a_long_pixel(700), settings);
   Plan plan = make_plan(prepared.facts, settings);
   plan.explain = GetParam().explain;
@@ -112,12 +106,11 @@ TEST_P(LongPixels, AreTheSameBitsHoweverTheyAreCut) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, LongPixels,
-                         testing::Values(Case{"thesis", Method::rpf, Profile::thesis, 1, false},
-                                         Case{"outliers", Method::rpf, Profile::paper, 1, false},
-                                         Case{"blocks", Method::rpf, Profile::thesis, 4, false},
-                                         Case{"explained", Method::rpf, Profile::paper, 1, true},
-                                         Case{"bilateral", Method::bilateral, Profile::thesis, 1, false},
-                                         Case{"cross", Method::cross_bilateral, Profile::thesis, 1, false}),
+                         testing::Values(Case{"thesis", Method::rpf, Profile::thesis, false},
+                                         Case{"outliers", Method::rpf, Profile::paper, false},
+                                         Case{"explained", Method::rpf, Profile::paper, true},
+                                         Case{"bilateral", Method::bilateral, Profile::thesis, false},
+                                         Case{"cross", Method::cross_bilateral, Profile::thesis, false}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -92,7 +92,6 @@ TEST_P(EveryMethod, KnowsNothingOfRandomParametersAndProfiles) {
   other.profile = Profile::paper;
   other.seed = 9;
   other.noise = 1;
-  other.statistics_block = 4;
   other.drop_uninformative = true;
   other.random = std::vector<std::string>{"lens"};
   EXPECT_EQ(filtered(samples, other), filtered(samples, settings()));

@@ -72,22 +72,6 @@ TEST(Plan, GrowsTheRegionOfEarlierPasses) {
   EXPECT_EQ(plan.passes[0].region, (Window{47, 0, 16, 13}));
 }
 
-TEST(Plan, GrowsTheRegionsByWhatTheStepsRead) {
-  FrameFacts f = facts();
-  f.crop = {50, 0, 10, 10};
-  Settings settings;
-  settings.box_widths = {9, 5};
-  settings.polish = 0.15F;
-  Plan plan = make_plan(f, settings);
-  EXPECT_EQ(plan.polished, f.crop);
-  EXPECT_EQ(plan.passes[1].region, (Window{46, 0, 18, 14}));
-  EXPECT_EQ(plan.passes[0].region, (Window{44, 0, 22, 16}));
-  settings.spread_spikes = true;
-  plan = make_plan(f, settings);
-  EXPECT_EQ(plan.passes[1].region, (Window{43, 0, 24, 17}));
-  EXPECT_EQ(plan.passes[0].region, (Window{38, 0, 34, 22}));
-}
-
 TEST(Plan, RefusesSettingsThatCannotBe) {
   const auto refused = [](auto change) {
     Settings settings;
@@ -111,8 +95,6 @@ TEST(Plan, RefusesSettingsThatCannotBe) {
   EXPECT_TRUE(refused([](Settings& s) { s.position_scale = 0; }));
   EXPECT_TRUE(refused([](Settings& s) { s.alpha_factor = -1; }));
   EXPECT_TRUE(refused([](Settings& s) { s.threads = -1; }));
-  for (const float h : {-0.1F, 1e-4F, 11.0F, std::numeric_limits<float>::quiet_NaN()})
-    EXPECT_TRUE(refused([h](Settings& s) { s.polish = h; })) << h;
 }
 
 }  // namespace

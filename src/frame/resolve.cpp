@@ -1,4 +1,4 @@
-#include "after/resolve.h"
+#include "frame/resolve.h"
 
 #include <algorithm>
 
