@@ -1,10 +1,12 @@
 """Presets beside Open Image Denoise with noisy features, frame by frame, on the same samples.
 
 Usage: quality.py FOLDER... [--build BUILD] [--presets fast,balanced,high] [--page PAGE] [--json OUT.json]
+                  [--pictures DIR --of NAME,NAME]
 
 A FOLDER holds NAME.samples.exr or .rpf and NAME.reference.exr or .rpf (NAME-4spp.samples.exr and NAME.ref.exr are found too).
 Ratios are to Open Image Denoise, of trimmed relMSE and of FLIP: below 1 is better than it. --page replaces the table between
-<!-- quality --> and <!-- end --> there.
+<!-- quality --> and <!-- end --> there. --pictures writes DIR/NAME.png of these frames: plain mean, presets, Open Image Denoise and
+reference in a row, and below the part where the mean is worst, enlarged.
 """
 import argparse
 import json
@@ -36,8 +38,8 @@ def frames_of(folders):
 
 
 class Measurement:
-    def __init__(self, rpf, python, presets, work):
-        self.rpf, self.python, self.presets, self.work = rpf, python, presets, work
+    def __init__(self, rpf, python, presets, work, pictures=None, pictured=()):
+        self.rpf, self.python, self.presets, self.work, self.pictures, self.pictured = rpf, python, presets, work, pictures, pictured
 
     def run(self, *arguments):
         return subprocess.run([self.rpf, *map(str, arguments)], check=True, stdout=subprocess.PIPE, text=True).stdout
@@ -50,7 +52,7 @@ class Measurement:
         self.run(path, "--method", "rpf", "--boxes", "none", "-o", image, "-q")
         return image
 
-    def frame(self, samples, reference):
+    def frame(self, name, samples, reference):
         """{method: errors} of one frame."""
         images = {"mean": self.work / "mean.exr"}
         self.run(samples, "--method", "rpf", "--boxes", "none", "-o", images["mean"], "-q")
@@ -59,10 +61,11 @@ class Measurement:
             self.run(samples, "--preset", preset, "-o", images[preset], "-q")
         if self.python:
             images[oidn.NOISY] = oidn.denoise(self.rpf, self.python, samples, self.work, 1)[oidn.NOISY]["image"]
-        errors = json.loads(self.run("compare", "--json", *images.values(), self.as_image(reference)))["images"]
+        picture = ("--side-by-side", self.pictures / f"{name}.png") if name in self.pictured else ()
+        errors = json.loads(self.run("compare", "--json", *images.values(), self.as_image(reference), *picture))["images"]
         measured = dict(zip(images, errors))
-        for name in measured:
-            measured[name]["energy"] /= measured["mean"]["energy"]
+        for error in measured.values():
+            error["relative_energy"] = error["energy"] / measured["mean"]["energy"]
         return measured
 
 
@@ -79,7 +82,7 @@ def table(results, presets):
         cells = [name] + [f"{errors[m]['trimmed_relMSE']:.4f}" for m in ("mean", oidn.NOISY)]
         for p in presets:
             e = errors[p]
-            cells.append(f"{e['trimmed_relMSE']:.4f}, **{ratio(errors, p, 'trimmed_relMSE'):.2f}**, {ratio(errors, p, 'FLIP'):.2f}, {e['energy']:.3f}")
+            cells.append(f"{e['trimmed_relMSE']:.4f}, **{ratio(errors, p, 'trimmed_relMSE'):.2f}**, {ratio(errors, p, 'FLIP'):.2f}, {e['relative_energy']:.3f}")
         rows.append("| " + " | ".join(cells) + " |")
     means = [f"{geometric([e[m]['trimmed_relMSE'] for e in results.values()]):.4f}" for m in ("mean", oidn.NOISY)]
     for p in presets:
@@ -96,6 +99,8 @@ def main():
     parser.add_argument("--presets", default="fast,balanced,high")
     parser.add_argument("--page")
     parser.add_argument("--json")
+    parser.add_argument("--pictures", type=Path)
+    parser.add_argument("--of", default="")
     options = parser.parse_args()
     build, presets = Path(options.build).resolve(), options.presets.split(",")
     python = oidn.python_with_oidn(build / "oidn")
@@ -103,9 +108,9 @@ def main():
         return 1
     results = {}
     with tempfile.TemporaryDirectory() as work:
-        measurement = Measurement(build / "rpf", python, presets, Path(work))
+        measurement = Measurement(build / "rpf", python, presets, Path(work), options.pictures, options.of.split(","))
         for name, samples, reference in frames_of(options.folders):
-            results[name] = measurement.frame(samples, reference)
+            results[name] = measurement.frame(name, samples, reference)
             print(table({name: results[name]}, presets)[2], flush=True)
     rows = table(results, presets)
     print("\n".join(rows))

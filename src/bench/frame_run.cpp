@@ -37,8 +37,10 @@ void warm_up(const FrameJob& job, const Control& control) {
 
 FrameRun run_frame(const FrameJob& job, const Control& control) {
   const CostClock clock;
-  Result result = filter(read_samples(job.samples, job.read), job.settings, control);
-  FrameRun run{clock.elapsed(), std::move(result.report), {}};
+  SampleBuffer samples = read_samples(job.samples, job.read);
+  const CostClock filtering;
+  Result result = filter(std::move(samples), job.settings, control);
+  FrameRun run{clock.elapsed(), filtering.elapsed(), std::move(result.report), {}};
   if (!job.reference.empty())
     run.error = compare_images(result.image, read_image(job.reference, job.settings.max_memory));
   return run;

@@ -34,7 +34,8 @@ struct FrameJob {
 };
 
 struct FrameRun {
-  Cost cost;  ///< of reading and filtering; starting the process, writing the image and comparing are left out
+  Cost cost;       ///< of reading and filtering; starting the process, writing the image and comparing are left out
+  Cost filtering;  ///< of that the filter, from samples in memory to an image in memory
   Report report;
   std::optional<ImageError> error;
 };

@@ -23,8 +23,14 @@ Json json_of(const ImageError& e) {
 double kept_energy(const Report& report) { return report.passes.empty() ? 1 : report.passes.back().energy; }
 
 Json json_of(const FrameRun& run) {
-  Json json{{"cpu", run.cost.cpu},           {"wall", run.cost.wall},       {"energy", kept_energy(run.report)},
-            {"backend", run.report.backend}, {"random", run.report.random}, {"features", run.report.features}};
+  Json json{{"cpu", run.cost.cpu},
+            {"wall", run.cost.wall},
+            {"filter_cpu", run.filtering.cpu},
+            {"filter_wall", run.filtering.wall},
+            {"energy", kept_energy(run.report)},
+            {"backend", run.report.backend},
+            {"random", run.report.random},
+            {"features", run.report.features}};
   for (const PassReport& pass : run.report.passes)
     json["passes"].push_back({{"box", pass.box_width},
                               {"neighbors", pass.neighbors},

@@ -14,7 +14,7 @@ struct Series {
   bench::SweepFrame frame;
   bench::SweepSetting setting;
   bench::FrameJob job;
-  std::vector<double> cpu, wall;
+  std::vector<double> cpu, wall, filter_cpu, filter_wall;
   bench::FrameRun first;  ///< with the errors: the image is the same in every round
 };
 
@@ -25,7 +25,7 @@ std::vector<Series> series_of(const FramesOptions& options, const std::string& f
   for (const bench::SweepFrame& frame : frames_of(options.frames, folder))
     for (const std::string& text : sets) {
       const bench::SweepSetting setting = setting_of(text);
-      series.push_back({frame, setting, job_of(frame, setting), {}, {}, {}});
+      series.push_back({frame, setting, job_of(frame, setting), {}, {}, {}, {}, {}});
     }
   return series;
 }
@@ -37,6 +37,8 @@ void measure(Series& series, int round) {
   bench::FrameRun run = bench::run_frame(job, stoppable());
   series.cpu.push_back(run.cost.cpu);
   series.wall.push_back(run.cost.wall);
+  series.filter_cpu.push_back(run.filtering.cpu);
+  series.filter_wall.push_back(run.filtering.wall);
   if (round == 0) series.first = std::move(run);
 }
 
@@ -80,6 +82,8 @@ void print_json(const std::vector<Series>& all) {
     entry.update(bench::json_of(s.first));
     entry["cpu"] = json_of(bench::summarize(s.cpu), s.cpu);
     entry["wall"] = json_of(bench::summarize(s.wall), s.wall);
+    entry["filter_cpu"] = json_of(bench::summarize(s.filter_cpu), s.filter_cpu);
+    entry["filter_wall"] = json_of(bench::summarize(s.filter_wall), s.filter_wall);
     entry["acceptance"] = acceptance(s.first.report);
     json["frames"].push_back(entry);
   }

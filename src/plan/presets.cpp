@@ -16,21 +16,20 @@ namespace {
 constexpr int trial_width = 128, trial_height = 72;
 
 struct Preset {
-  const char* name;
-  const char* network;
+  const char* name;  ///< and its network's
   const char* purpose;
 };
 
 constexpr Preset all_presets[] = {
-    {"fast", "fast", "previews and long sequences: the smallest network"},
-    {"balanced", "balanced", "most work"},
-    {"high", "balanced", "final frames: the best network there is, today that of balanced"},
+    {"fast", "previews and long sequences: the smallest network"},
+    {"balanced", "most work"},
+    {"high", "final frames: the widest network"},
 };
 
 Settings settings_of(const Preset& preset) {
   Settings settings;
   settings.method = Method::learned;
-  settings.model = preset.network;
+  settings.model = preset.name;
   return settings;
 }
 

@@ -150,7 +150,7 @@ class Measuring {
     write_image(image_of(run), result.image);
     Json line{{"label", run.label}, {"scene", run.frame.scene}, {"options", run.options}};
     line["commands"] = commands_of(run);
-    line.update(bench::json_of({cost, std::move(result.report), compare_images(result.image, reference)}));
+    line.update(bench::json_of({cost, cost, std::move(result.report), compare_images(result.image, reference)}));
     results_.add(key_of(run), line);
   }
 
