@@ -34,7 +34,10 @@ static int parts_of_row(const rpf_area* area) { return (area->width + area->part
 
 // A work-item takes the parts first_part(), first_part() + get_global_size(0) ... before end_part().
 static int first_part(void) { return (int)get_global_id(0); }
-static int end_part(const rpf_area* area) { return (area->end - area->first) * parts_of_row(area); }
+// No row: no parts either, whatever the rest of the area is; a rehearsal (src/opencl) hands over zeros.
+static int end_part(const rpf_area* area) {
+  return area->first < area->end ? (area->end - area->first) * parts_of_row(area) : 0;
+}
 static int row_of_part(const rpf_area* area, int i) { return area->first + i / parts_of_row(area); }
 static int begin_of_part(const rpf_area* area, int i) { return i % parts_of_row(area) * area->part; }
 static int end_of_part(const rpf_area* area, int i) { return min(begin_of_part(area, i) + area->part, area->width); }

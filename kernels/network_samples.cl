@@ -145,7 +145,8 @@ static void guide_statistics(__global const float* record, __global const int* c
     statistics[RPF_STATISTIC_SPREADS + i] = sqrt(variance[3 * i] + variance[3 * i + 1] + variance[3 * i + 2]);
 }
 
-static int plane_of(const rpf_grid* grid, int planes) { return grid->pitch / planes; }
+// Also of no planes, as a rehearsal (src/opencl) has them.
+static int plane_of(const rpf_grid* grid, int planes) { return grid->pitch / max(planes, 1); }
 
 // Beside the planes of a row stands what adds nothing to a sum, whatever its weight: fma(0, -0, s) is s.
 static void close_planes(__global float* row, int plane, int planes, int begin, int end, int width) {

@@ -35,6 +35,9 @@ bool is_same_file(const std::string& a, const std::string& b);
 /// Bits of a value in an image with this name: 8, or 32 of a float. Throws Error(output) for an unknown extension.
 int stored_bits(const std::string& path);
 
+/// Whether an image with this name can have an alpha. Throws Error(output) for an unknown extension.
+bool stores_alpha(const std::string& path);
+
 /// Makes a folder inside one that is there; nothing where it is there itself. Throws Error(output).
 void make_folder(const std::string& path);
 

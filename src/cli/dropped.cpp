@@ -32,6 +32,12 @@ std::string dropped_of(const SampleFileInfo& info) {
 
 }  // namespace
 
+SampleFileInfo as_image(SampleFileInfo info, const std::string& output) {
+  for (SampleFileChannel& channel : info.channels)
+    if (channel.slot == "A" && !output.empty() && !stores_alpha(output)) channel.slot.clear();
+  return info;
+}
+
 void tell_dropped(const SampleFileInfo& info) {
   const std::string dropped = dropped_of(info);
   if (!dropped.empty()) remark("rpf: note: \"{}\": not in the result: {}\n", info.path, dropped);

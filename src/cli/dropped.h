@@ -7,6 +7,9 @@
 
 namespace rpf::cli {
 
+/// The file as what is written into an image of that name: an alpha that its format has no room for has no slot.
+SampleFileInfo as_image(SampleFileInfo info, const std::string& output);
+
 /// One remark that lists channels without a slot and attributes of unknown types; nothing where there are none.
 void tell_dropped(const SampleFileInfo& info);
 

@@ -74,12 +74,13 @@ void write_results(const FilterOptions& options, const Result& result) {
 }
 
 /// The files that will be written, known before the work.
-std::vector<PlannedOutput> planned_outputs(const FilterOptions& options, const SampleFileInfo& info,
+std::vector<PlannedOutput> planned_outputs(const FilterOptions& options, const FilterInput& input,
                                            const Settings& settings) {
+  const SampleFileInfo& info = input.info;
   const Window window = settings.crop.value_or(info.data_window);
   std::vector<PlannedOutput> outputs;
   if (!options.output.empty())
-    outputs.push_back({options.output, OutputKind::image, {"R", "G", "B", "A"}, window, true});
+    outputs.push_back({options.output, OutputKind::image, {"R", "G", "B", "A"}, window, input.is_image()});
   if (options.aov.empty()) return outputs;
   std::vector<std::string> features;
   for (const std::string& slot : needed_layout(info, settings).slots)
@@ -137,9 +138,10 @@ int run(const FilterOptions& options, const std::vector<std::string>& arguments)
   check_features(options, info);
   check_budget(input, settings, options.verbose || options.dry_run);
   if (settings.crop) check_crop(*settings.crop, info.data_window);
-  check_outputs(planned_outputs(options, info, settings), {options.input});
-  check_in_place(info, options.output);
-  if (!options.quiet) tell_dropped(info);
+  check_outputs(planned_outputs(options, input, settings), {options.input});
+  const SampleFileInfo stored = as_image(info, options.output);
+  check_in_place(stored, options.output);
+  if (!options.quiet) tell_dropped(stored);
   if (options.dry_run) return 0;
 
   read_options.slots = needed_layout(info, settings).slots;

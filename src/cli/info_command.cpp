@@ -8,6 +8,7 @@
 #include "cli/filter_options.h"
 #include "cli/needs.h"
 #include "cli/print.h"
+#include "rpf/presets.h"
 
 namespace rpf::cli {
 namespace {
@@ -56,14 +57,20 @@ void print_remarks(const SampleFileInfo& info, const SampleBuffer& samples) {
     print("  attributes of types that are not read: {}\n", fmt::format("{}", fmt::join(info.dropped_attributes, ", ")));
 }
 
-void print_memory(const SampleFileInfo& info) {
-  Settings settings;
+void print_need(const SampleFileInfo& info, const std::string& name, Settings settings, std::uint64_t limit) {
   settings.threads = default_threads();
+  settings.max_memory = limit;  // what a network takes depends on it
+  print("  predicted peak memory, {}, {} threads: {:.0f} MB\n", name, settings.threads,
+        static_cast<double>(predicted_memory(info, settings)) / megabyte);
+}
+
+void print_memory(const SampleFileInfo& info, std::uint64_t limit) {
+  for (const PresetInfo& preset : presets())
+    print_need(info, preset.name + " preset", preset_settings(preset.name), limit);
   for (const Profile profile : {Profile::thesis, Profile::paper}) {
+    Settings settings;
     settings.profile = profile;
-    print("  predicted peak memory, {} profile, {} threads: {:.0f} MB\n",
-          profile == Profile::thesis ? "thesis" : "paper", settings.threads,
-          static_cast<double>(predicted_memory(info, settings)) / megabyte);
+    print_need(info, profile == Profile::thesis ? "thesis profile" : "paper profile", settings, limit);
   }
 }
 
@@ -87,7 +94,7 @@ Command add_info_command(CLI::App& app) {
     print_file(info);
     print_channels(info, survey(samples));
     print_remarks(info, samples);
-    print_memory(info);
+    print_memory(info, read_options.max_memory);
     return 0;
   };
 }

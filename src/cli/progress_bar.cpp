@@ -23,13 +23,14 @@ std::string clock_time(double seconds) {
 }
 
 ProgressBar::ProgressBar(const std::string& mode)
-    : visible_(mode == "always" || (mode == "auto" && isatty(STDERR_FILENO) == 1)) {}
+    : talks_(mode != "never"), visible_(mode == "always" || (mode == "auto" && isatty(STDERR_FILENO) == 1)) {}
 
 ProgressBar::~ProgressBar() {
   if (shown_) remark("\n");
 }
 
 void ProgressBar::show(const Progress& progress) {
+  if (progress.passes < 0) return say_compiling();
   const auto now = std::chrono::steady_clock::now();
   const bool is_last = progress.fraction >= 1;
   if (!visible_ || (shown_ && !is_last && now - latest_ < std::chrono::milliseconds(200))) return;
@@ -38,6 +39,13 @@ void ProgressBar::show(const Progress& progress) {
   const int filled = static_cast<int>(progress.fraction * bar_width);
   remark("\rpass {}/{} [{:=<{}}{:<{}}] {:3.0f} %  {} left ", progress.pass + 1, progress.passes, "", filled, "",
          bar_width - filled, 100 * progress.fraction, clock_time(is_last ? 0 : progress.seconds_left));
+}
+
+void ProgressBar::say_compiling() {
+  if (!talks_ || says_compiling_) return;
+  says_compiling_ = true;
+  remark("{}compiling kernels for the OpenCL device, once\n", shown_ ? "\n" : "");
+  shown_ = false;
 }
 
 }  // namespace rpf::cli

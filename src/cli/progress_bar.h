@@ -11,7 +11,8 @@ namespace rpf::cli {
 /// Seconds as people write them, 1:05; unknown where they are negative.
 std::string clock_time(double seconds);
 
-/// One line on stderr that says how far the run is and how long it will take.
+/// One line on stderr that says how far the run is and how long it will take; and one, on a terminal or not, where
+/// kernels are compiled, for that takes some seconds and happens once.
 class ProgressBar {
  public:
   /// `mode`: auto (where stderr is a terminal), never, always.
@@ -23,7 +24,10 @@ class ProgressBar {
   void show(const Progress& progress);
 
  private:
-  bool visible_ = false, shown_ = false;
+  void say_compiling();
+
+  bool talks_ = false, visible_ = false;
+  bool shown_ = false, says_compiling_ = false;
   std::chrono::steady_clock::time_point latest_{};
 };
 

@@ -66,7 +66,7 @@ class Run {
     Layers layers(prepared_, plan_, groups);
     Explanation result;
     const Attribution attribution = attribute_noise(prepared_.frame, groups, threads_, [&] { meter.add(0, 0); });
-    load_backend(backend_, settings_, prepared_.frame, std::move(prepared_.colors), plan_, [&] { meter.check(); });
+    load_backend(backend_, settings_, prepared_.frame, std::move(prepared_.colors), plan_, meter);
     const std::vector<float> mean = resolved();
     if (traced_) result.pixel = explain_trace(backend_->trace(0, *traced_), prepared_, plan_, geometry_.data_window);
     for (const Window& tile : cut_into_tiles(plan_, 0, control_, threads_)) {

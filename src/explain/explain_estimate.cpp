@@ -9,6 +9,7 @@
 #include "rpf/error.h"
 #include "rpf/explain.h"
 #include "run/backends.h"
+#include "run/progress_meter.h"
 
 namespace rpf {
 namespace {
@@ -17,7 +18,10 @@ namespace {
 class Estimated {
  public:
   Estimated(SampleBuffer samples, const Settings& settings, const PixelPosition& position)
-      : data_window_(samples.data_window), number_(pixel_number(position, samples)), backend_(make_backend(settings)) {
+      : settings_(settings),
+        data_window_(samples.data_window),
+        number_(pixel_number(position, samples)),
+        backend_(make_backend(settings)) {
     result_.position = position;
     prepared_ = prepare(std::move(samples), settings);
     plan_ = observe(prepared_, find_network(settings.model));
@@ -27,6 +31,9 @@ class Estimated {
   ExplainedEstimate explain() {
     const int x = static_cast<int>(number_) % plan_.width, y = static_cast<int>(number_) / plan_.width;
     const Window region = region_of_shares(plan_, x, y), window = window_around(plan_, region);
+    const Control nobody;
+    ProgressMeter meter(nobody);
+    get_ready_estimate(backend_, settings_, plan_, meter);
     backend_->load_estimate(prepared_.frame, prepared_.colors, plan_);
     const std::vector<EstimateStage> stages = backend_->trace_estimate(region);
     const PixelShares shares = pixel_shares(plan_, stages, window, counts(window), x, y);
@@ -82,6 +89,7 @@ class Estimated {
     if (squares > 0) result_.effective_samples = static_cast<float>(1 / squares);
   }
 
+  const Settings& settings_;
   Window data_window_;
   std::uint32_t number_;
   PreparedFrame prepared_;

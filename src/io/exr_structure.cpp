@@ -34,7 +34,8 @@ constexpr std::uint64_t max_expansion = 1032;
 
 [[noreturn]] void reject_kind(const FileBytes& file, const std::string& kind) {
   reject(file, fmt::format("is {}, but a deep scan-line OpenEXR file of one part is needed, one list entry for every "
-                           "Monte Carlo sample; write it as docs/file-format.md shows",
+                           "Monte Carlo sample; write it as docs/file-format.md shows, or filter an image with "
+                           "--method bilateral",
                            kind));
 }
 

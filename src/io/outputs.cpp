@@ -69,6 +69,8 @@ bool is_same_file(const std::string& a, const std::string& b) { return io::input
 
 int stored_bits(const std::string& path) { return io::format_of(path).encoding == io::Encoding::srgb_bytes ? 8 : 32; }
 
+bool stores_alpha(const std::string& path) { return io::format_of(path).alpha; }
+
 void make_folder(const std::string& path) {
   std::error_code error;
   fs::create_directory((fs::path(path) / "").parent_path(), error);

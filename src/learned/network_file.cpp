@@ -21,7 +21,7 @@ constexpr const char* format_name = "rpf-network";
 constexpr int format_version = 1;
 
 // What a file may ask for, so that no shape overflows and none takes more than a few hundred MB.
-constexpr std::size_t longest_header = 1 << 16, most_bytes = 1 << 28;
+constexpr std::size_t longest_header = 1 << 16, longest_name = 64, most_bytes = 1 << 28;
 constexpr int most_features = 128, most_channels = 512, most_levels = 8, most_embedding = 64;
 
 [[noreturn]] void refuse(const std::string& origin, const std::string& what) {
@@ -45,12 +45,18 @@ Json header_of(std::string_view bytes, const std::string& origin) {
   return header;
 }
 
+/// It is shown to users and kept in images.
+bool is_printable(const std::string& name) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
+  return !name.empty() && name.size() <= longest_name && std::none_of(name.begin(), name.end(), is_control);
+}
+
 /// Name and shape; the layers have no weights yet.
 Network shape_of(const Json& header, const std::string& origin) {
   Network n;
   const Json name = header.value("name", Json());
-  if (!name.is_string()) refuse(origin, "'name' must be a text");
-  n.name = name.get<std::string>();
+  n.name = name.is_string() ? name.get<std::string>() : "";
+  if (!is_printable(n.name)) refuse(origin, fmt::format("'name' must be a line of 1 to {} characters", longest_name));
   n.sample_features = number_in(header.value("sample_features", Json()), most_features, "sample_features", origin);
   n.embedding = number_in(header.value("embedding", Json()), most_embedding, "embedding", origin);
   const Json channels = header.value("channels", Json());

@@ -13,6 +13,7 @@
 #include <array>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <system_error>
 
@@ -27,6 +28,13 @@ using Clock = std::chrono::steady_clock;
 
 /// What a driver may take to clean up after a whole answer.
 constexpr auto to_end = std::chrono::seconds(1);
+
+/// Of seconds: a machine with much else to do is not taken for a driver that hangs, for a child that works gets its
+/// share of it.
+bool is_hopeless(double waited, double worked, double limit) {
+  constexpr double least_share = 0.02, longest = 10;  // limits
+  return waited > limit && (worked < least_share * waited || worked > limit || waited > longest * limit);
+}
 
 /// Beside the program, beside the shared object that this code is in (Python's module), or where it was built.
 std::string helper() {
@@ -130,9 +138,11 @@ class Child {
   }
 
   ChildAnswer wait(std::chrono::seconds limit, const Check& check) {
-    const auto deadline = Clock::now() + limit;
+    const auto start = Clock::now();
     while (!has_ended() && !is_answered()) {
-      if (Clock::now() > deadline) return {false, false, fmt::format("gave no answer in {} seconds", limit.count())};
+      const std::chrono::duration<double> waited = Clock::now() - start;
+      if (is_hopeless(waited.count(), processor_seconds(), static_cast<double>(limit.count())))
+        return {false, false, fmt::format("gave no answer in {:.0f} seconds", waited.count())};
       if (check) check();
       listen();
     }
@@ -148,6 +158,14 @@ class Child {
   }
 
  private:
+  /// Of all its threads.
+  double processor_seconds() const {
+    clockid_t clock = 0;
+    timespec used{};
+    if (::clock_getcpuclockid(id_, &clock) != 0 || ::clock_gettime(clock, &used) != 0) return 0;
+    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+  }
+
   bool has_ended() {
     ended_ = ::waitpid(id_, &status_, WNOHANG) != 0;  // an error too: the caller ignores SIGCHLD
     return ended_;

@@ -18,7 +18,7 @@ struct ChildAnswer {
 };
 
 /// Runs rpf_probe (src/probe) with these arguments, and `input` on its standard input, and waits for its answer,
-/// `limit` at most. Throws Error(device) where that program is missing.
+/// `limit` of its work. Throws Error(device) where that program is missing.
 ChildAnswer ask_child(const std::vector<std::string>& question, const std::string& input, std::chrono::seconds limit,
                       const Check& check);
 

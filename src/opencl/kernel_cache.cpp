@@ -16,17 +16,13 @@
 
 #include "opencl/cache_index.h"
 #include "opencl/cache_seal.h"
+#include "opencl/environment.h"
 #include "rpf/error.h"
 
 namespace rpf {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string environment(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value == nullptr ? "" : value;
-}
 
 /// Where the user wants caches; empty where nothing says.
 fs::path wanted_folder() {

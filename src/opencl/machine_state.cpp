@@ -11,13 +11,13 @@
 #endif
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 #include <vector>
 
+#include "opencl/environment.h"
 #include "opencl/kernel_cache.h"
 #include "rpf/version.h"
 
@@ -25,11 +25,6 @@ namespace rpf {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string environment(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value == nullptr ? "" : value;
-}
 
 std::vector<std::string> split(const std::string& list) {
   std::vector<std::string> parts;

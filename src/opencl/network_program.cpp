@@ -46,10 +46,10 @@ Blocking blocking_of(const cl::Device& device) {
   return device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>() >= 16 ? Blocking{16, 32} : Blocking{8, 16};
 }
 
-NetworkProgram::NetworkProgram(Session& session, const EstimatePlan& plan, const Blocking& blocking)
+NetworkProgram::NetworkProgram(Session& session, const EstimatePlan& plan, const Blocking& blocking, const Check& check)
     : session_(session), features_(plan.network->sample_features) {
   place_layers(*plan.network, plan.live);
-  compile(blocking);
+  compile(blocking, check);
 }
 
 void NetworkProgram::place(DeviceLayer& to, const NetworkLayer& layer, const std::vector<int>& inputs, int first,
@@ -93,7 +93,7 @@ void NetworkProgram::place_layers(const Network& network, const std::vector<int>
   last_weights_ = session_.copy(last);
 }
 
-void NetworkProgram::compile(const Blocking& blocking) {
+void NetworkProgram::compile(const Blocking& blocking, const Check& check) {
   std::string text;
   std::set<std::string> names;
   const auto for_all = [&](auto body) {
@@ -104,7 +104,8 @@ void NetworkProgram::compile(const Blocking& blocking) {
   for_all([&](const DeviceLayer& layer) {
     if (names.insert(layer.shape.name()).second) text += layer_text(layer.shape, blocking);
   });
-  program_ = session_.program("network.cl", "", text);
+  session_.rehearse("network.cl", "", text, check);
+  program_ = session_.compile("network.cl", "", text);
   for_all([&](DeviceLayer& layer) { layer.kernel = cl::Kernel(program_, layer.shape.name().c_str()); });
 }
 

@@ -22,7 +22,8 @@ Blocking blocking_of(const cl::Device& device);
 
 class NetworkProgram {
  public:
-  NetworkProgram(Session& session, const EstimatePlan& plan, const Blocking& blocking);
+  /// `check`: as require_compiled() calls it (probe.h).
+  NetworkProgram(Session& session, const EstimatePlan& plan, const Blocking& blocking, const Check& check);
 
   /// An entry point of kernels/network.cl.
   cl::Kernel kernel(const std::string& name) const { return {program_, name.c_str()}; }
@@ -39,7 +40,7 @@ class NetworkProgram {
  private:
   void place_layers(const Network& network, const std::vector<int>& live);
   void place(DeviceLayer& to, const NetworkLayer& layer, const std::vector<int>& inputs, int first, int count);
-  void compile(const Blocking& blocking);
+  void compile(const Blocking& blocking, const Check& check);
 
   Session& session_;
   int features_;

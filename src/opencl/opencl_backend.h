@@ -38,6 +38,7 @@ class OpenClBackend : public Backend {
   const std::vector<float>& explained() const override { return explained_; }
   std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const override;
   PixelTrace trace(int pass, std::uint32_t pixel) override;
+  void get_ready_estimate(const EstimatePlan& plan, const std::function<void()>& check) override;
   void load_estimate(const Frame& frame, std::vector<float> colors, const EstimatePlan& plan) override;
   std::vector<float> estimate(const Window& region, const EstimateProgress& progress) override;
   std::vector<EstimateStage> trace_estimate(const Window& region) override;
@@ -95,6 +96,7 @@ class OpenClBackend : public Backend {
   const Frame* frame_ = nullptr;
   const Plan* plan_ = nullptr;
   const EstimatePlan* estimate_plan_ = nullptr;
+  const EstimatePlan* ready_for_ = nullptr;  ///< that network_ was made for, and is yet to be loaded
   std::optional<Blocking> blocking_;
   std::unique_ptr<NetworkProgram> network_;
   std::vector<float> colors_, next_colors_;  ///< c' and c'': [sample][carried]

@@ -4,13 +4,19 @@
 
 namespace rpf {
 
+void OpenClBackend::get_ready_estimate(const EstimatePlan& plan, const std::function<void()>& check) {
+  network_ = on_device("preparing the network", [&] {
+    return std::make_unique<NetworkProgram>(session_, plan, blocking_.value_or(blocking_of(session_.device())), check);
+  });
+  ready_for_ = &plan;
+}
+
 void OpenClBackend::load_estimate(const Frame& frame, std::vector<float> colors, const EstimatePlan& plan) {
+  if (ready_for_ != &plan) get_ready_estimate(plan, {});
+  ready_for_ = nullptr;
   frame_ = &frame;
   estimate_plan_ = &plan;
   colors_ = std::move(colors);
-  network_ = on_device("preparing the network", [&] {
-    return std::make_unique<NetworkProgram>(session_, plan, blocking_.value_or(blocking_of(session_.device())));
-  });
 }
 
 std::vector<float> OpenClBackend::estimate(const Window& region, const EstimateProgress& progress) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "opencl/cache_index.h"
+#include "opencl/cache_lock.h"
 #include "opencl/cache_seal.h"
 #include "opencl/kernel_cache.h"
 #include "opencl/machine_state.h"
@@ -17,9 +18,11 @@ namespace {
 
 using std::chrono::seconds;
 
-/// PoCL answers in a tenth of a second, eight cold starts at once on a busy machine take some ten seconds; a filter's
-/// kernels compile in some seconds.
+/// Of work: PoCL answers in a tenth of a second, compiles the self-test in one, and a filter's kernels in some seconds.
 constexpr seconds to_answer{20}, to_compile{180};
+
+/// For another process that asks the same.
+constexpr seconds to_wait{600};
 
 constexpr const char* what_to_do =
     "use --backend=cpu; another driver is chosen with OCL_ICD_VENDORS, "
@@ -89,7 +92,9 @@ void require_working_device(const std::string& wanted) {
   const std::lock_guard<std::mutex> lock(mutex);
   if (known.count(wanted) != 0) return;
   prepare_kernel_cache();
-  const Answer answer = ask_and_keep({"test", wanted}, "", name_of("test " + wanted), to_answer, {});
+  const std::string name = name_of("test " + wanted);
+  const CacheLock alone(name, to_wait, {});
+  const Answer answer = ask_and_keep({"test", wanted}, "", name, to_answer, {});
   if (answer.kind != "ok") {
     const Answer failure = parsed(answer.rest);
     throw Error(
@@ -103,6 +108,8 @@ void require_working_device(const std::string& wanted) {
 
 void require_compiled(const KernelBuild& build, const Check& check) {
   prepare_kernel_cache();
+  const CacheLock alone(build.source, to_wait, check);
+  check_kernels(build.source);
   const std::string name = name_of(fmt::format("build {:016x}", checksum(build.source)));
   const Verdicts verdicts(verdict_folder());
   const bool is_gone = build.in_our_cache && !kernel_cache_folder().empty() &&

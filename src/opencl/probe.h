@@ -26,8 +26,8 @@ struct KernelBuild {
   bool in_our_cache = false;  ///< the driver is PoCL, which keeps what the child compiles where check_kernels() looks
 };
 
-/// Compiles a program and, where all of its text is in kernels/, runs each of its kernels with nothing to do, in a
-/// child, where that is not known to work. Throws Error(device) where it does not.
+/// Compiles a program and runs each of its kernels with nothing to do, in a child, where that is not known to work.
+/// Throws Error(device) where it does not.
 void require_compiled(const KernelBuild& build, const Check& check);
 
 /// The answer of rpf_probe (src/probe) to a question of the above; runs the driver in this process.

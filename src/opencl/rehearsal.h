@@ -8,8 +8,8 @@
 namespace rpf {
 
 /// Compiles a program as Session::program() does, and launches each of its kernels with zeros for all arguments and
-/// buffers of zeros. Every kernel of kernels/ must take that for nothing to do; generated ones (`more`) need not, and
-/// are only compiled. Throws Error(device).
+/// buffers of zeros. Every kernel, of kernels/ or generated (`more`), must take that for nothing to do. Throws
+/// Error(device).
 void rehearse(Session& session, const std::string& file, const std::string& definitions, const std::string& more);
 
 }  // namespace rpf

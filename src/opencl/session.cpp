@@ -138,9 +138,7 @@ std::string Session::source_of(const std::string& file, const std::string& defin
 void Session::rehearse(const std::string& file, const std::string& definitions, const std::string& more,
                        const Check& check) {
   if (programs_.count(key_of(file, definitions, more)) != 0) return;
-  const std::string source = source_of(file, definitions, more);
-  check_kernels(source);
-  require_compiled({number_, file, definitions, more, source, is_pocl(device_)}, check);
+  require_compiled({number_, file, definitions, more, source_of(file, definitions, more), is_pocl(device_)}, check);
 }
 
 const cl::Program& Session::program(const std::string& file, const std::string& definitions, const std::string& more) {

@@ -30,6 +30,18 @@ std::unique_ptr<Backend> make_best(const Settings& settings) {
   }
 }
 
+/// Kernels are what a backend takes time to get ready.
+template <class GetReady>
+void get_ready_or_replace(std::unique_ptr<Backend>& backend, const Settings& settings, ProgressMeter& meter,
+                          const GetReady& get_ready) {
+  try {
+    get_ready([&] { meter.check_compiling(); });
+  } catch (const Error& e) {
+    if (settings.backend != "auto") throw;
+    backend = make_replacement(settings, e);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> backend_names() { return {"cpu", "opencl", "auto"}; }
@@ -42,15 +54,17 @@ std::unique_ptr<Backend> make_backend(const Settings& settings) {
                                             fmt::join(backend_names(), ", ")));
 }
 
+void get_ready_estimate(std::unique_ptr<Backend>& backend, const Settings& settings, const EstimatePlan& plan,
+                        ProgressMeter& meter) {
+  get_ready_or_replace(backend, settings, meter,
+                       [&](const std::function<void()>& check) { backend->get_ready_estimate(plan, check); });
+}
+
 void load_backend(std::unique_ptr<Backend>& backend, const Settings& settings, const Frame& frame,
-                  std::vector<float> colors, const Plan& plan, const std::function<void()>& check) {
-  try {
-    backend->get_ready(frame, plan, check);
-  } catch (const Error& e) {
-    if (settings.backend != "auto") throw;
-    backend = make_replacement(settings, e);
-  }
-  backend->watch(check);
+                  std::vector<float> colors, const Plan& plan, ProgressMeter& meter) {
+  get_ready_or_replace(backend, settings, meter,
+                       [&](const std::function<void()>& check) { backend->get_ready(frame, plan, check); });
+  backend->watch([&meter] { meter.check(); });
   backend->load(frame, std::move(colors), plan);
 }
 

@@ -1,11 +1,11 @@
 // The only place that knows all backends.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
 #include "rpf/settings.h"
+#include "run/progress_meter.h"
 #include "seam/backend.h"
 
 namespace rpf {
@@ -15,9 +15,13 @@ namespace rpf {
 /// Error(device) where it cannot work.
 std::unique_ptr<Backend> make_backend(const Settings& settings);
 
-/// load() of a backend of make_backend(), after get_ready() and watch(). Where "auto" chose one that does not get ready
-/// it becomes the reference, whose description then says why.
+/// Has a backend of make_backend() get ready for an estimate, and tells `meter` where kernels are compiled. Where
+/// "auto" chose one that does not get ready it becomes the reference, whose description then says why.
+void get_ready_estimate(std::unique_ptr<Backend>& backend, const Settings& settings, const EstimatePlan& plan,
+                        ProgressMeter& meter);
+
+/// The same for the passes of a plan, and load(). `meter` also watches the backend.
 void load_backend(std::unique_ptr<Backend>& backend, const Settings& settings, const Frame& frame,
-                  std::vector<float> colors, const Plan& plan, const std::function<void()>& check);
+                  std::vector<float> colors, const Plan& plan, ProgressMeter& meter);
 
 }  // namespace rpf

@@ -67,13 +67,10 @@ class Run {
     geometry_.metadata = samples.metadata;
     check_memory(samples, settings);
     backend_ = make_backend(settings);
-    const FrameSize size = frame_size(samples);
-    const std::size_t room = room_of(samples);
-    const SampleLayout layout = samples.layout;
+    raw_ = {frame_size(samples), samples.layout, room_of(samples)};
     prepared_ = prepare(std::move(samples), settings);
     if (settings.method == Method::learned) {
       estimate_plan_ = observe(prepared_, find_network(settings.model));
-      band_rows_ = estimate_bands(size, layout, room, settings, *backend_).rows;
       return;
     }
     if (settings.method == Method::rpf && settings.drop_uninformative) drop_uninformative(prepared_, settings);
@@ -90,7 +87,7 @@ class Run {
   Result run_passes(const PassObserver& before_pass) {
     ProgressMeter meter(plan_, control_);
     Result result;
-    load_backend(backend_, settings_, prepared_.frame, std::move(prepared_.colors), plan_, [&] { meter.check(); });
+    load_backend(backend_, settings_, prepared_.frame, std::move(prepared_.colors), plan_, meter);
     Pixels pixels = resolved();
     const double plain_energy = energy(pixels, prepared_.facts);
     for (int pass = 0; pass < static_cast<int>(plan_.passes.size()); ++pass) {
@@ -111,11 +108,13 @@ class Run {
     ProgressMeter meter(control_);
     const FrameFacts& facts = prepared_.facts;
     const double plain_energy = energy(resolve(prepared_.frame, prepared_.colors, facts.carried), facts);
+    get_ready_estimate(backend_, settings_, estimate_plan_, meter);
+    const int band_rows = estimate_bands(raw_.size, raw_.layout, raw_.room, settings_, *backend_).rows;
     backend_->load_estimate(prepared_.frame, std::move(prepared_.colors), estimate_plan_);
     Pixels pixels(prepared_.frame.first_sample.size() * facts.carried, 0.0F);
     const Window& crop = facts.crop;
-    for (int y = crop.y; y < crop.y + crop.height; y += band_rows_) {
-      const Window band{crop.x, y, crop.width, std::min(band_rows_, crop.y + crop.height - y)};
+    for (int y = crop.y; y < crop.y + crop.height; y += band_rows) {
+      const Window band{crop.x, y, crop.width, std::min(band_rows, crop.y + crop.height - y)};
       const double share = static_cast<double>(band.height) / crop.height;
       place(backend_->estimate(band, [&](double part) { meter.add_part(share * part); }), band, pixels);
     }
@@ -163,14 +162,21 @@ class Run {
       result.features = image_of(pixels, prepared_, geometry_, colors, prepared_.carried_names.size());
   }
 
+  /// What was read, before it was prepared.
+  struct Raw {
+    FrameSize size;
+    SampleLayout layout;
+    std::uint64_t room = 0;  ///< columns
+  };
+
   const Settings& settings_;
   const Control& control_;
   int threads_;
+  Raw raw_;
   Image geometry_;  ///< windows and metadata of the result
   PreparedFrame prepared_;
   Plan plan_;
   EstimatePlan estimate_plan_;
-  int band_rows_ = 1;                 ///< of a learned estimate
   std::unique_ptr<Backend> backend_;  ///< last: it refers to frame and plan
 };
 

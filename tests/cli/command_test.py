@@ -187,7 +187,16 @@ class CommandTest(CommandCase):
         self.assertNotIn("libOpenImageIO", libraries)  # 250 libraries, 0.2 CPU seconds
 
     def test_info_names_slots_and_memory(self):
-        self.expect(run("info", EXAMPLE), 0, "random.lens.U", "feature.albedo.R", "predicted peak memory", "4 to 4 a pixel")
+        self.expect(run("info", EXAMPLE), 0, "random.lens.U", "feature.albedo.R", "4 to 4 a pixel")
+
+    def test_info_predicts_memory_as_the_filter_does(self):
+        told = run("info", EXAMPLE).stdout
+        for kind, names in (("preset", ("fast", "balanced", "high")), ("profile", ("thesis", "paper"))):
+            for name in names:
+                need = re.search(f"predicted peak memory, {name} {kind}, .*: (\\d+) MB", told)
+                self.assertIsNotNone(need, told)
+                result = run(f"--{kind}", name, "--dry-run", EXAMPLE, "-o", self.output)
+                self.expect(result, 0, f"peak memory: {need[1]} MB")
 
     def test_dry_run_writes_nothing(self):
         self.expect(run(EXAMPLE, "-o", self.output, "--dry-run"), 0, "peak memory")

@@ -1,6 +1,7 @@
 """Numbers, windows and attributes that cannot be, in one line that says what can. Usage: messages_test.py RPF PROJECT"""
 import os
 import re
+import shutil
 import struct
 import subprocess
 import sys
@@ -35,6 +36,15 @@ class MessagesTest(CommandCase):
         self.assertLess(len(lines[0]), 300, lines[0])
         for text in texts:
             self.assertIn(text, lines[0])
+
+    def test_an_image_in_place_of_samples_leads_to_what_filters_images(self):
+        self.output = self.folder / "a.png"
+        self.expect(run(*FAST, self.samples, "-o", self.output), 0)
+        for arguments in ([], ["--preset", "fast"], ["--profile", "paper"]):
+            self.expect(run(*arguments, self.output, "-o", self.folder / "b.png"), 3, "--method bilateral")
+        self.expect(run("--method", "bilateral", self.output, "-o", self.folder / "b.png"), 0)
+        shutil.copy(PROJECT / "examples" / "dof-spheres.reference.exr", self.folder / "flat.exr")
+        self.expect(run(self.folder / "flat.exr", "-o", self.folder / "b.png"), 3, "a flat OpenEXR image", "--method bilateral")
 
     # ---- numbers
 

@@ -12,6 +12,7 @@ from pathlib import Path
 RPF, PROJECT = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 EXAMPLE = PROJECT / "examples" / "dof-spheres.samples.exr"
 SMALL = ["--boxes", "5,3", "--crop", "16x12+20+20"]
+NETWORK = ["--preset", "fast", "--crop", "16x12+20+20"]
 SANITIZED = b"__asan_init" in RPF.read_bytes()
 
 # A driver that does something as soon as it is loaded, and leaves a line in $STARTS.
@@ -19,6 +20,7 @@ DRIVER = """
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 #include <unistd.h>
 __attribute__((constructor)) static void start(void) {
   FILE* starts = fopen(getenv("STARTS"), "a");
@@ -42,6 +44,11 @@ class Drivers(unittest.TestCase):
     def setUp(self):
         self.folder = Path(tempfile.mkdtemp(prefix="rpf drivers "))
         self.output, self.reference, self.starts, self.asked = (self.folder / name for name in ("out.exr", "reference.exr", "starts", "asked"))
+        self.use(SMALL)
+
+    def use(self, settings):
+        """What is filtered from here on."""
+        self.settings = settings
         self.expect(self.filter("cpu", output=self.reference), 0)
 
     def tearDown(self):
@@ -53,7 +60,7 @@ class Drivers(unittest.TestCase):
                               env={**os.environ, **{name: str(value) for name, value in environment.items()}})
 
     def filter(self, backend, *more, output=None, **environment):
-        return self.run_rpf(EXAMPLE, "-o", output or self.output, "--backend", backend, *SMALL, *more, **environment)
+        return self.run_rpf(EXAMPLE, "-o", output or self.output, "--backend", backend, *self.settings, *more, **environment)
 
     def expect(self, result, code, *texts):
         self.assertEqual(result.returncode, code, result.stdout + result.stderr)
@@ -112,6 +119,11 @@ class Drivers(unittest.TestCase):
         self.expect_same_bits()
         self.assertEqual(self.loaded(), 1)  # the second time nobody waits
 
+    def test_a_driver_that_is_slow_on_a_busy_machine_does_not_hang(self):
+        """It gets a fourth of a processor for longer than a driver that does nothing would be waited for."""
+        slow = self.driver("for (time_t end = time(0) + 24; time(0) < end; usleep(60000)) for (clock_t begin = clock(); clock() - begin < CLOCKS_PER_SEC / 50;) {}")
+        self.expect(self.filter("opencl", **slow), 5, "no OpenCL device")
+
     def test_nothing_is_left_behind(self):
         environment = {**os.environ, "RPF_CACHE_DIR": str(self.folder / "cache"), "STARTS": str(self.starts), **{k: str(v) for k, v in self.driver("for (;;) pause()").items()}}
         for number in (signal.SIGTERM, signal.SIGKILL):
@@ -150,7 +162,10 @@ class Drivers(unittest.TestCase):
     def test_without_a_linker(self):
         self.expect_cpu("Final linking", PATH="/nonexistent")
         self.expect(self.run_rpf("devices"), 0, "keeps the numeric contract")  # compiles the self-test
-        self.expect_cpu("Final linking", PATH="/nonexistent", STARTS="other")  # and now the filter's kernel is the first
+        for settings in (SMALL, NETWORK):  # and now their kernels are the first; another PATH, for the verdict is known
+            with self.subTest(settings):
+                self.use(settings)
+                self.expect_cpu("Final linking", PATH="/nonexistent/again")
 
     # ---- first builds of kernels
 
@@ -165,8 +180,41 @@ class Drivers(unittest.TestCase):
 
     def test_a_kernel_whose_first_build_aborts(self):
         rpf = self.asking()
-        self.expect_cpu("the compiler failed", ABORTS_AT="build", **rpf)
-        self.assertEqual(self.asked.read_text().split(), ["test", "build"])  # both verdicts are remembered
+        for settings, asked in ((SMALL, ["test", "build"]), (NETWORK, ["build"])):
+            with self.subTest(settings):
+                self.use(settings)
+                self.asked.unlink(missing_ok=True)
+                self.expect_cpu("the compiler failed", ABORTS_AT="build", **rpf)
+                self.assertEqual(self.asked.read_text().split(), asked)  # verdicts are remembered
+
+    def test_all_kernels_are_compiled_by_the_child_and_it_is_said_once(self):
+        """A linker that says who started it: the program itself compiles nothing."""
+        folder = self.folder / "tools"
+        folder.mkdir()
+        linker = folder / "ld"
+        linker.write_text('#!/bin/sh\ncat /proc/$PPID/comm >> "$STARTS"\nexec /usr/bin/ld "$@"\n')
+        linker.chmod(0o755)
+        for settings in (SMALL, NETWORK):
+            with self.subTest(settings):
+                self.use(settings)
+                for said in (1, 0):
+                    result = self.filter("opencl", PATH=f"{folder}:{os.environ['PATH']}")
+                    self.expect(result, 0)
+                    self.assertEqual(result.stderr.count("compiling kernels"), said, result.stderr)
+                    self.expect_same_bits()
+                self.assertEqual(set(self.starts.read_text().split()), {"rpf_probe"})
+
+    def test_of_several_processes_on_a_cold_cache_one_compiles(self):
+        rpf = self.asking()["rpf"]
+        self.use(NETWORK)
+        environment = {**os.environ, "RPF_CACHE_DIR": str(self.folder / "cache"), "ASKED": str(self.asked)}
+        outputs = [self.folder / f"{i}.exr" for i in range(3)]
+        processes = [subprocess.Popen([rpf, EXAMPLE, "-o", output, "--backend=opencl", "-q", *NETWORK], env=environment) for output in outputs]
+        self.assertEqual([process.wait() for process in processes], [0, 0, 0])
+        self.assertEqual(sorted(self.asked.read_text().split()), ["build", "test"])
+        for output in outputs:
+            output.replace(self.output)
+            self.expect_same_bits()
 
     def test_good_verdicts_are_remembered(self):
         rpf = self.asking()
@@ -184,6 +232,11 @@ class Drivers(unittest.TestCase):
         self.expect_cpu("rpf_probe", rpf=rpf)
 
     # ---- what compilers say
+
+    def test_compiling_is_not_said_where_nothing_shall_be(self):
+        result = self.filter("auto", "--progress", "never")
+        self.expect(result, 0)
+        self.assertNotIn("compiling", result.stderr)
 
     def test_warnings_of_a_compiler_are_not_ours(self):
         talking = {"POCL_EXTRA_BUILD_FLAGS": "-DRPF_EPSILON=2"}  # a macro that the kernels define anew

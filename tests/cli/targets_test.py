@@ -81,6 +81,16 @@ class TargetsTest(CommandCase):
         self.assertNotEqual(run("bench", "sweep", plan, "-o", plan).returncode, 0)
         self.assertIn("settings", plan.read_text())
 
+    def test_samples_are_not_replaced_by_their_picture(self):
+        deep = self.folder / "s.exr"
+        shutil.copy(EXAMPLE, deep)
+        raw = self.folder / "raw.exr"  # the content decides what it is read as
+        write_raw(raw, frame())
+        for samples, output in ((deep, deep), (deep, self.link("l.exr", "s.exr")), (raw, raw)):
+            for settings in (FAST, ["--backend", "cpu", "--preset", "fast"], ["--backend", "cpu", "--method", "bilateral"]):
+                self.expect_refused(2, "would be lost", "name another file", arguments=[*settings, samples, "-o", output])
+        self.expect_refused(2, "would be lost", arguments=[*FAST, "--dry-run", deep, "-o", deep])
+
     # ---- links, rights, other writers
 
     def test_links_lead_to_where_the_result_is_written(self):
@@ -212,6 +222,21 @@ class TargetsTest(CommandCase):
             result = run(*arguments)
             self.expect(result, 0)
             self.assertIn("object.id", result.stderr)
+
+    def test_an_alpha_that_the_format_has_no_room_for_is_named(self):
+        channels = frame()
+        channels["A"] = channels["feature.albedo.R"]
+        write_raw(self.samples, channels)
+        image = self.folder / "a.exr"
+        write_exr(image, {c: noise(seed=i) for i, c in enumerate("ARGB")})
+        for arguments in ([*FAST, self.samples], ["--method", "bilateral", image]):
+            for name, said in (("b.jpg", True), ("b.hdr", True), ("b.png", False), ("b.exr", False)):
+                result = run(*arguments, "-o", self.folder / name)
+                self.expect(result, 0)
+                self.assertEqual("not in the result: channels A" in result.stderr, said, (name, result.stderr))
+            self.assertEqual(run(*arguments, "-q", "-o", self.folder / "b.jpg").stderr, "")
+        write_exr(self.folder / "c.jpg", {c: noise(seed=i) for i, c in enumerate("ARGB")})  # the content decides
+        self.expect_refused(2, "lose channels A", arguments=["--method", "bilateral", self.folder / "c.jpg", "-o", self.folder / "c.jpg"])
 
     def test_sixteen_bits_do_not_become_eight_in_place(self):
         image = self.folder / "a.png"  # the content decides what it is read as

@@ -1,5 +1,5 @@
 #!/bin/sh
-# run.sh samples|filter SECONDS: fuzzes one target, built before by: cmake --workflow --preset fuzz
+# run.sh samples|filter|network SECONDS: fuzzes one target, built before by: cmake --workflow --preset fuzz
 # What it learns stays in build/fuzz/corpus, what stops it in build/fuzz/found; found inputs go to tests/fuzz/corpus.
 set -eu
 subject=$1 seconds=$2
@@ -8,6 +8,7 @@ build=$here/../../build/fuzz
 mkdir -p "$build/corpus/$subject" "$build/found"
 case $subject in
   samples) set -- "-dict=$here/samples.dict" -max_len=40000 -malloc_limit_mb=256 ;;  # the target's memory limit is 64 MB
+  network) set -- -dict="$here/network.dict" -max_len=8192 ;;
   filter)
     # The leak checker of clang 15 itself crashes in a process with PoCL's kernels; tests/reliability/soak.py looks for leaks.
     export ASAN_OPTIONS=detect_leaks=0

@@ -123,9 +123,9 @@ class MachineTest(unittest.TestCase):
         samples = self.folder / "a.exr"
         shutil.copy(EXAMPLE, samples)
         self.expect(run("convert", samples, "-o", samples), 0)
-        expected = self.good(EXAMPLE, *QUICK)
-        self.expect(run(samples, "-o", samples, *QUICK), 0)
-        self.assertEqual(samples.read_bytes(), expected)
+        before = samples.read_bytes()
+        self.expect(run(samples, "-o", samples, *QUICK), 2)  # samples are more than their picture
+        self.assertEqual(samples.read_bytes(), before)
         self.expect_no_temporaries()
 
     # ---- being stopped

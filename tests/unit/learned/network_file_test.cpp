@@ -112,6 +112,15 @@ TEST(NetworkFile, AShapeThatCannotBeIsRefused) {
   EXPECT_THAT(refusal(header_with("\"name\":\"random\"", "\"name\":7")), HasSubstr("name"));
 }
 
+TEST(NetworkFile, ANameThatIsNoLineIsRefused) {
+  Network network = test::random_network();
+  for (const char* name :
+       {"", "a\nb", "\x1b[31m", "12345678901234567890123456789012345678901234567890123456789012345"}) {
+    network.name = name;
+    EXPECT_THAT(refusal(network_bytes(network)), HasSubstr("'name' must be a line"));
+  }
+}
+
 TEST(NetworkFile, WhatIsNoneIsRefused) {
   EXPECT_THAT(refusal(header_with("rpf-network", "rpf-netware")), HasSubstr("not a network file"));
   EXPECT_THAT(refusal(header_with("\"version\":1", "\"version\":2")), HasSubstr("version 1 only"));
