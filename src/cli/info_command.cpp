@@ -57,21 +57,17 @@ void print_remarks(const SampleFileInfo& info, const SampleBuffer& samples) {
     print("  attributes of types that are not read: {}\n", fmt::format("{}", fmt::join(info.dropped_attributes, ", ")));
 }
 
-void print_need(const SampleFileInfo& info, const std::string& name, Settings settings, std::uint64_t limit) {
-  settings.threads = default_threads();
-  settings.max_memory = limit;  // what a network takes depends on it
-  print("  predicted peak memory, {}, {} threads: {:.0f} MB\n", name, settings.threads,
+/// `kind`: preset or profile.
+void print_need(const SampleFileInfo& info, const std::string& kind, const std::string& name, std::uint64_t limit) {
+  Settings settings = settings_of(parse_filter_options({"--" + kind, name}));  // backend and threads as in filtering
+  settings.max_memory = limit;                                                 // what a network takes depends on it
+  print("  predicted peak memory, {} {}, {} threads: {:.0f} MB\n", name, kind, settings.threads,
         static_cast<double>(predicted_memory(info, settings)) / megabyte);
 }
 
 void print_memory(const SampleFileInfo& info, std::uint64_t limit) {
-  for (const PresetInfo& preset : presets())
-    print_need(info, preset.name + " preset", preset_settings(preset.name), limit);
-  for (const Profile profile : {Profile::thesis, Profile::paper}) {
-    Settings settings;
-    settings.profile = profile;
-    print_need(info, profile == Profile::thesis ? "thesis profile" : "paper profile", settings, limit);
-  }
+  for (const PresetInfo& preset : presets()) print_need(info, "preset", preset.name, limit);
+  for (const char* profile : {"thesis", "paper"}) print_need(info, "profile", profile, limit);
 }
 
 }  // namespace
