@@ -421,11 +421,11 @@ def _features(passes, layer, camera, window, film, slots):
                 return values.ravel()
         raise RpfError(f"Cycles wrote no pass {name} for the view layer {layer.name}")
     color = {c: plane("Combined", c) for c in "RGBA"}
-    hit = plane("Depth", "Z", "V") < 1e9
     values = {f"feature.N.{c}": plane("Normal", c) for c in "XYZ"}
     length = np.sqrt(sum(v.astype(float) ** 2 for v in values.values()))
+    hit = length > 0.1  # Cycles writes Depth for sample 0 only, a normal for every sample that hit a surface
     with np.errstate(invalid="ignore", divide="ignore"):
-        values = {name: np.where(length > 0.1, v / length, np.nan) for name, v in values.items()}
+        values = {name: np.where(hit, v / length, np.nan) for name, v in values.items()}
     values |= {f"feature.albedo.{c}": np.clip(plane("Denoising Albedo", c), 0, 1) for c in "RGB"}
     values |= {f"feature.uv.{c}": plane("UV", c) for c in "UV"}
     if camera is not None:

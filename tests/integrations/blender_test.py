@@ -124,6 +124,7 @@ class BlenderTest(unittest.TestCase):
     def test_defocus(self):
         channels = self.expect_scene("defocus", {"random.lens.U", "random.lens.V"})
         hit = channels["feature.hit"] == 1
+        self.assertLess(np.ptp(hit.reshape(-1, SAMPLES).mean(0)), 0.05)  # every sample has its features, not the first alone
         self.assertGreater(np.isfinite(channels["feature.P.X"][hit]).mean(), 0.99)
         floor = hit & (np.abs(channels["feature.N.Z"] - 1) < 1e-6) & np.isfinite(channels["feature.P.Z"])
         self.assertGreater(floor.sum(), 1000)
