@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include "parts/parts.h"
 #include "rpf/error.h"
 
 namespace rpf::io {
@@ -10,8 +11,9 @@ namespace {
 
 /// The library stays loaded: 250 libraries do not unload cleanly.
 const ImageLibrary& load(ErrorKind kind, const std::string& path) {
-  void* library = dlopen("$ORIGIN/" RPF_IMAGES_NAME, RTLD_LAZY);
-  if (library == nullptr) library = dlopen(RPF_IMAGES_FILE, RTLD_LAZY);
+  void* library = nullptr;
+  for (const std::string& place : places_of_part(RPF_IMAGES_NAME))
+    if (library == nullptr) library = dlopen(place.c_str(), RTLD_LAZY);
   const void* symbol = library == nullptr ? nullptr : dlsym(library, "rpf_image_library");
   if (symbol != nullptr) return *static_cast<const ImageLibrary*>(symbol);
   throw Error(kind,

@@ -1,6 +1,5 @@
 #include "opencl/child.h"
 
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -14,16 +13,15 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
-#include <filesystem>
 #include <system_error>
 
 #include "opencl/kernel_cache.h"
+#include "parts/parts.h"
 #include "rpf/error.h"
 
 namespace rpf {
 namespace {
 
-namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 /// What a driver may take to clean up after a whole answer.
@@ -36,18 +34,9 @@ bool is_hopeless(double waited, double worked, double limit) {
   return waited > limit && (worked < least_share * waited || worked > limit || waited > longest * limit);
 }
 
-/// Beside the program, beside the shared object that this code is in (Python's module), or where it was built.
 std::string helper() {
-  std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-  Dl_info object{};
-  ::dladdr(RPF_PROBE_NAME, &object);
-  const fs::path library = object.dli_fname == nullptr ? "" : object.dli_fname;
-  // Of the program itself this may be a name alone, which would mean the folder that a user happens to be in.
-  const fs::path folder = library.is_absolute() ? library.parent_path() : program.parent_path();
-  for (const fs::path& path :
-       {program.parent_path() / RPF_PROBE_NAME, folder / RPF_PROBE_NAME, fs::path(RPF_PROBE_FILE)})
-    if (::access(path.c_str(), X_OK) == 0) return path.string();
+  for (const std::string& place : places_of_part(RPF_PROBE_NAME))
+    if (::access(place.c_str(), X_OK) == 0) return place;
   throw Error(ErrorKind::device, "OpenCL drivers are asked by " RPF_PROBE_NAME
                                  ", which is not beside the program; put it there, or use --backend=cpu");
 }

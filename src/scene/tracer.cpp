@@ -1,12 +1,12 @@
 #include "scene/tracer.h"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 
 #include "rpf/error.h"
+#include "scene/embree.h"
 
 namespace rpf::scene {
 namespace {
@@ -46,31 +46,31 @@ void occlude(const RTCOccludedFunctionNArguments* arguments) {
 }
 
 void attach(RTCScene scene, RTCGeometry geometry) {
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
+  embree().commit_geometry(geometry);
+  embree().attach_geometry(scene, geometry);
+  embree().release_geometry(geometry);
 }
 
 void attach_mesh(RTCDevice device, RTCScene scene, const Mesh& mesh) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                             3 * sizeof(float), mesh.vertices.size()));
+  RTCGeometry geometry = embree().new_geometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* points = static_cast<float*>(embree().set_new_geometry_buffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size()));
   for (const Vertex& v : mesh.vertices)
     for (const float coordinate : {v.position.x, v.position.y, v.position.z}) *points++ = coordinate;
-  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                 3 * sizeof(unsigned), mesh.triangles.size()));
+  auto* indices = static_cast<unsigned*>(embree().set_new_geometry_buffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));
   for (const auto& triangle : mesh.triangles) indices = std::copy(triangle.begin(), triangle.end(), indices);
   attach(scene, geometry);
 }
 
 void attach_solids(RTCDevice device, RTCScene scene, const std::vector<Solid>& solids) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(solids.size()));
-  rtcSetGeometryUserData(geometry, const_cast<Solid*>(solids.data()));  // read only
-  rtcSetGeometryBoundsFunction(
+  RTCGeometry geometry = embree().new_geometry(device, RTC_GEOMETRY_TYPE_USER);
+  embree().set_geometry_user_primitive_count(geometry, static_cast<unsigned>(solids.size()));
+  embree().set_geometry_user_data(geometry, const_cast<Solid*>(solids.data()));  // read only
+  embree().set_geometry_bounds_function(
       geometry, [](const RTCBoundsFunctionArguments* a) { bound(a); }, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, [](const RTCIntersectFunctionNArguments* a) { intersect(a); });
-  rtcSetGeometryOccludedFunction(geometry, [](const RTCOccludedFunctionNArguments* a) { occlude(a); });
+  embree().set_geometry_intersect_function(geometry, [](const RTCIntersectFunctionNArguments* a) { intersect(a); });
+  embree().set_geometry_occluded_function(geometry, [](const RTCOccludedFunctionNArguments* a) { occlude(a); });
   attach(scene, geometry);
 }
 
@@ -103,20 +103,20 @@ Vertex interpolate(const Mesh& mesh, unsigned triangle, float u, float v) {
 
 struct Tracer::Embree {
   // One instruction set on every machine, so that it is not the processor that decides the last bit.
-  RTCDevice device = rtcNewDevice("isa=sse4.2");
+  RTCDevice device = embree().new_device("isa=sse4.2");
   RTCScene scene = nullptr;
 
   Embree() {
     if (device == nullptr)
       throw Error(ErrorKind::device,
                   fmt::format("Embree does not start (error {}); a processor with SSE 4.2 is expected",
-                              static_cast<int>(rtcGetDeviceError(nullptr))));
-    scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // no rays through the edges between triangles
+                              static_cast<int>(embree().get_device_error(nullptr))));
+    scene = embree().new_scene(device);
+    embree().set_scene_flags(scene, RTC_SCENE_FLAG_ROBUST);  // no rays through the edges between triangles
   }
   ~Embree() {
-    rtcReleaseScene(scene);
-    rtcReleaseDevice(device);
+    embree().release_scene(scene);
+    embree().release_device(device);
   }
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
@@ -125,8 +125,8 @@ struct Tracer::Embree {
 Tracer::Tracer(const World& world) : world_(world), embree_(std::make_unique<Embree>()) {
   for (const Mesh& mesh : world.meshes) attach_mesh(embree_->device, embree_->scene, mesh);
   if (!world.solids.empty()) attach_solids(embree_->device, embree_->scene, world.solids);
-  rtcCommitScene(embree_->scene);
-  if (const RTCError error = rtcGetDeviceError(embree_->device); error != RTC_ERROR_NONE)
+  embree().commit_scene(embree_->scene);
+  if (const RTCError error = embree().get_device_error(embree_->device); error != RTC_ERROR_NONE)
     throw Error(ErrorKind::internal, fmt::format("Embree refuses the scene (error {})", static_cast<int>(error)));
 }
 
@@ -137,7 +137,7 @@ std::optional<Hit> Tracer::nearest(const Ray& ray) const {
   rtcInitIntersectContext(&context);
   RTCRayHit query{embree_ray(ray, std::numeric_limits<float>::infinity()), {}};
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(embree_->scene, &context, &query);
+  embree().intersect_1(embree_->scene, &context, &query);
   const RTCHit& found = query.hit;
   if (found.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   if (found.geomID < world_.meshes.size()) {
@@ -154,7 +154,7 @@ bool Tracer::blocked(const Ray& ray, float distance) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay query = embree_ray(ray, distance);
-  rtcOccluded1(embree_->scene, &context, &query);
+  embree().occluded_1(embree_->scene, &context, &query);
   return query.tfar < 0;
 }
 
