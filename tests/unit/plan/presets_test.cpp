@@ -10,11 +10,11 @@
 namespace rpf {
 namespace {
 
-TEST(Presets, AreNetworks) {
-  for (const auto& [preset, network] : {std::pair{"fast", "fast"}, {"balanced", "balanced"}, {"high", "balanced"}}) {
-    const Settings settings = preset_settings(preset);
+TEST(Presets, AreNetworksOfTheirNames) {
+  for (const PresetInfo& preset : presets()) {
+    const Settings settings = preset_settings(preset.name);
     EXPECT_EQ(settings.method, Method::learned);
-    EXPECT_EQ(settings.model, network);
+    EXPECT_EQ(settings.model, preset.name);
   }
 }
 
