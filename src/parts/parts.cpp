@@ -17,6 +17,11 @@ fs::path folder_of_object() {
   return ::dladdr(&mark, &object) != 0 && object.dli_fname != nullptr ? fs::path(object.dli_fname).parent_path() : "";
 }
 
+#ifdef RPF_BUILD_FOLDER
+/// Not inline: so it stands in the program as a whole, where a test makes another folder of it.
+[[gnu::noinline]] const char* build_folder() { return RPF_BUILD_FOLDER; }
+#endif
+
 }  // namespace
 
 std::vector<std::string> places_of_part(const std::string& name) {
@@ -26,7 +31,7 @@ std::vector<std::string> places_of_part(const std::string& name) {
   if (object.is_absolute()) folders.insert(folders.end(), {object, object / "rpf"});
   folders.push_back(program / RPF_FROM_PROGRAMS_TO_LIBRARIES / "rpf");
 #ifdef RPF_BUILD_FOLDER
-  folders.emplace_back(RPF_BUILD_FOLDER);
+  folders.emplace_back(build_folder());
 #endif
   std::vector<std::string> places;
   for (const fs::path& folder : folders) places.push_back((folder / name).string());
