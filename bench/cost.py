@@ -14,7 +14,7 @@ import tempfile
 from pathlib import Path
 
 import oidn
-from marked_page import replace
+from marked_page import write_table
 
 PROJECT = Path(__file__).resolve().parent.parent
 SCENE, SAMPLES = "combined", 4
@@ -74,8 +74,7 @@ def main():
             rows += rows_of(size, measured(build / "rpf", python, samples, options.presets.split(","), options.rounds, work))
     print("\n".join(rows))
     if options.page:
-        page = Path(options.page)
-        page.write_text(replace(page.read_text(encoding="utf-8"), "cost", rows), encoding="utf-8")
+        write_table(options.page, "cost", rows)
     return 0
 
 

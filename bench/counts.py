@@ -11,7 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from marked_page import replace
+from marked_page import write_table
 
 PROJECT = Path(__file__).resolve().parent.parent
 SIZE, REFERENCE_SAMPLES = "240x135", 2048
@@ -102,8 +102,7 @@ def main():
     lines = table(rows, counts.presets)
     print("\n".join(lines))
     if options.page:
-        page = Path(options.page)
-        page.write_text(replace(page.read_text(encoding="utf-8"), "counts", lines), encoding="utf-8")
+        write_table(options.page, "counts", lines)
         plot(rows, ["mean", *counts.presets], PROJECT / "docs/images/counts.png")
     return int(any(e[p][m] > e["mean"][m] for e in rows.values() for p in counts.presets for m in MEASURES))
 

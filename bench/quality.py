@@ -17,7 +17,7 @@ import tempfile
 from pathlib import Path
 
 import oidn
-from marked_page import replace
+from marked_page import write_table
 
 PROJECT = Path(__file__).resolve().parent.parent
 
@@ -117,8 +117,7 @@ def main():
     if options.json:
         Path(options.json).write_text(json.dumps(results, indent=1))
     if options.page:
-        page = Path(options.page)
-        page.write_text(replace(page.read_text(encoding="utf-8"), "quality", rows), encoding="utf-8")
+        write_table(options.page, "quality", rows)
     return 0
 
 

@@ -16,6 +16,8 @@ from PIL import Image
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+from marked_page import write_table
+
 PROJECT = Path(__file__).resolve().parent.parent
 BUILD = Path(sys.argv[1] if len(sys.argv) > 1 else PROJECT / "build/release").resolve()
 RPF, TO_FLOATS = BUILD / "rpf", BUILD / "tests/image_to_floats"
@@ -164,13 +166,6 @@ def filter_table(book, purposes):
     return rows
 
 
-def replace(page, name, rows):
-    """Puts the rows between the marks <!-- name --> and <!-- end -->."""
-    begin = page.index(f"<!-- {name} -->") + len(f"<!-- {name} -->")
-    end = page.index("<!-- end -->", begin)
-    return page[:begin] + "\n" + "\n".join(rows) + "\n" + page[end:]
-
-
 def main():
     listed = subprocess.run([RPF, "scene", "--list"], check=True, capture_output=True, text=True).stdout
     purposes = dict(line.split(maxsplit=1) for line in listed.splitlines())
@@ -182,8 +177,8 @@ def main():
     for scene in purposes:
         book.get(scene, "converge", lambda: converge(scene))
     plot(book, purposes)
-    page = replace(PAGE.read_text(), "scenes", scene_table(book, purposes))
-    PAGE.write_text(replace(page, "filters", filter_table(book, purposes)))
+    write_table(PAGE, "scenes", scene_table(book, purposes))
+    write_table(PAGE, "filters", filter_table(book, purposes))
 
 
 main()
