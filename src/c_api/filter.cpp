@@ -3,19 +3,12 @@
 #include <memory>
 
 #include "c_api/objects.h"
-#include "rpf/presets.h"
+#include "c_api/setting_names.h"
 
 using rpf::c_api::guarded;
 using rpf::c_api::require;
 
 namespace {
-
-rpf::Settings settings_or_default(const rpf_settings* settings) {
-  if (settings != nullptr) return settings->value;
-  rpf::Settings named = rpf::preset_settings("balanced");
-  named.backend = "auto";
-  return named;
-}
 
 rpf::Control control_of(rpf_progress_function* progress, void* user) {
   rpf::Control control;
@@ -36,8 +29,9 @@ rpf_status rpf_filter(rpf_sample_buffer** buffer, const rpf_settings* settings, 
     require(image, "rpf_filter: image");
     *image = nullptr;
     if (features != nullptr) *features = nullptr;
-    rpf::Result result =
-        rpf::filter(std::move(taken->value), settings_or_default(settings), control_of(progress, user));
+    rpf::Result result = rpf::filter(std::move(taken->value),
+                                     settings == nullptr ? rpf::c_api::settings_named("balanced") : settings->value,
+                                     control_of(progress, user));
     auto filtered = std::make_unique<rpf_image>(rpf_image{std::move(result.image)});
     if (features != nullptr && !result.features.pixels.empty()) *features = new rpf_image{std::move(result.features)};
     *image = filtered.release();

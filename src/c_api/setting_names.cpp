@@ -11,6 +11,7 @@
 
 #include "rpf/error.h"
 #include "rpf/methods.h"
+#include "rpf/presets.h"
 #include "rpf/ranges.h"
 
 namespace rpf::c_api {
@@ -138,6 +139,14 @@ const std::map<std::string, Setter>& setters() {
 }
 
 }  // namespace
+
+Settings settings_named(const std::string& name) {
+  Settings settings;
+  if (name == "paper") settings.profile = Profile::paper;
+  if (name != "thesis" && name != "paper") settings = preset_settings(name);
+  settings.backend = "auto";  // as the command: the bits are the same
+  return settings;
+}
 
 void set(Settings& settings, const std::string& name, const std::string& value) {
   const auto found = setters().find(name);

@@ -1,29 +1,14 @@
-#include <string>
-
 #include "c_api/objects.h"
 #include "c_api/setting_names.h"
-#include "rpf/presets.h"
 
 using rpf::c_api::guarded;
 using rpf::c_api::require;
-
-namespace {
-
-rpf::Settings settings_named(const std::string& name) {
-  rpf::Settings settings;
-  if (name == "paper") settings.profile = rpf::Profile::paper;
-  if (name != "thesis" && name != "paper") settings = rpf::preset_settings(name);
-  settings.backend = "auto";  // as the command: the bits are the same
-  return settings;
-}
-
-}  // namespace
 
 rpf_status rpf_settings_new(const char* preset, rpf_settings** settings) {
   return guarded([&] {
     require(settings, "rpf_settings_new: settings");
     *settings = nullptr;
-    *settings = new rpf_settings{settings_named(preset == nullptr ? "balanced" : preset)};
+    *settings = new rpf_settings{rpf::c_api::settings_named(preset == nullptr ? "balanced" : preset)};
   });
 }
 
