@@ -6,9 +6,9 @@
 
 #include "cli/explain_maps.h"
 #include "cli/explain_pages.h"
+#include "cli/explain_shares.h"
 #include "report/html_page.h"
 #include "report/picture.h"
-#include "report/plot.h"
 #include "rpf/io.h"
 
 namespace rpf::cli {
@@ -16,13 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int least_picture = 300;  ///< CSS pixels
-constexpr std::size_t listed_samples = 20;
+constexpr int least_picture = 300;    ///< CSS pixels
 constexpr double least_shown = 1e-4;  ///< of the largest share
-
-std::string color_text(const std::array<float, 3>& c) {
-  return fmt::format("{:.4g}, {:.4g}, {:.4g}", c[0], c[1], c[2]);
-}
 
 report::Picture picture(const std::string& folder, const std::string& name, const Image& image,
                         const std::string& caption, const report::Legend& legend = {}) {
@@ -48,32 +43,19 @@ report::Table summary(const ExplainedEstimate& estimate) {
            {"plain mean R, G, B", color_text(estimate.mean)},
            {"in the preset's picture", color_text(estimate.result)},
            {"samples with a share", fmt::format("{}", estimate.samples.size())},
-           {"effective samples", fmt::format("{:.4g}", estimate.effective_samples)},
+           {"effective samples", number(estimate.effective_samples)},
            {"albedo here over that of the samples, as far as it is used", color_text(estimate.factor)}},
           1};
 }
 
 report::Table largest_shares(const ExplainedEstimate& estimate) {
   report::Table table{{"largest shares: pixel", "R, G, B of the sample", "share"}, {}, 1};
-  for (std::size_t i = 0; i < std::min(listed_samples, estimate.samples.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(listed_shares, estimate.samples.size()); ++i) {
     const Contribution& sample = estimate.samples[i];
-    table.rows.push_back({fmt::format("{},{}", sample.pixel.x, sample.pixel.y), color_text(sample.color),
-                          fmt::format("{:.4g}", sample.share)});
+    table.rows.push_back(
+        {fmt::format("{},{}", sample.pixel.x, sample.pixel.y), color_text(sample.color), number(sample.share)});
   }
   return table;
-}
-
-std::string share_plot(const ExplainedEstimate& estimate) {
-  report::Plot plot;
-  plot.x_label = "samples, by falling share";
-  plot.y_label = "share in the color";
-  plot.curves.push_back({"so many samples together", {}});
-  double sum = 0;
-  for (std::size_t i = 0; i < estimate.samples.size(); ++i) {
-    sum += estimate.samples[i].share;
-    plot.curves[0].points.push_back({static_cast<double>(i + 1), sum});
-  }
-  return report::svg_of(plot);
 }
 
 }  // namespace
@@ -92,7 +74,9 @@ void add_estimate(const std::string& folder, const Image& frame, const Explained
                          "The pixels that it can be made of, and the plain mean there, enlarged."),
                  share_picture(folder, estimate)},
                 least_picture);
-  page.plot(share_plot(estimate), "How many samples make the color.");
+  std::vector<float> shares;
+  for (const Contribution& sample : estimate.samples) shares.push_back(sample.share);
+  page.plot(share_plot(shares, "the color"), "How many samples make the color.");
   page.table(largest_shares(estimate));
 }
 

@@ -11,10 +11,10 @@
 
 #include "cli/explain_maps.h"
 #include "cli/explain_pages.h"
+#include "cli/explain_shares.h"
 #include "report/html_page.h"
 #include "report/palette.h"
 #include "report/picture.h"
-#include "report/plot.h"
 #include "rpf/io.h"
 
 namespace rpf::cli {
@@ -24,14 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr int least_picture = 300;  ///< CSS pixels
 constexpr int histogram_cell = 4;   ///< pixels of a cell before side_by_side() enlarges it four times
-constexpr std::size_t listed_neighbors = 20;
-constexpr int dotted_pixel = 17;  ///< pixels of one that carries a dot; odd
-
-std::string number(float value) { return fmt::format("{:.4g}", value); }
-
-std::string color_text(const std::array<float, 3>& c) {
-  return fmt::format("{:.4g}, {:.4g}, {:.4g}", c[0], c[1], c[2]);
-}
+constexpr int dotted_pixel = 17;    ///< pixels of one that carries a dot; odd
 
 /// The part of the frame that the pass draws from, counted from the frame's first pixel.
 Window box_around(const Explanation& explanation) {
@@ -178,18 +171,11 @@ class PixelPage {
 
   void add_weights() {
     page_.heading("Weights");
-    report::Plot plot;
-    plot.x_label = "samples, by falling share";
-    plot.y_label = "share in the filtered value";
-    plot.curves.push_back({"so many samples together", {}});
-    double sum = 0;
-    for (std::size_t i = 0; i < pixel_.neighbors.size(); ++i) {
-      sum += pixel_.neighbors[i].share;
-      plot.curves[0].points.push_back({static_cast<double>(i + 1), sum});
-    }
-    page_.plot(report::svg_of(plot), "How many samples make the filtered value.");
+    std::vector<float> shares;
+    for (const ExplainedNeighbor& n : pixel_.neighbors) shares.push_back(n.share);
+    page_.plot(share_plot(shares, "the filtered value"), "How many samples make the filtered value.");
     report::Table table{{"largest shares: pixel", "R, G, B of the sample", "times drawn", "share"}, {}, 1};
-    for (std::size_t i = 0; i < std::min(listed_neighbors, pixel_.neighbors.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(listed_shares, pixel_.neighbors.size()); ++i) {
       const ExplainedNeighbor& n = pixel_.neighbors[i];
       table.rows.push_back({fmt::format("{},{}", n.pixel.x, n.pixel.y), color_text(n.color), fmt::format("{}", n.drawn),
                             number(n.share)});
