@@ -14,7 +14,8 @@ namespace rpf {
 
 /// Handed to Control::progress between tiles.
 struct Progress {
-  int pass = 0, passes = 0;  ///< pass 0 is the first; a learned estimate is one; passes -1: kernels are compiled
+  int pass = 0, passes = 0;  ///< pass 0 is the first; a learned estimate is one
+  bool compiling = false;    ///< kernels are compiled just now, which is no part of the work
   double fraction = 0;       ///< of the whole work, 0 .. 1, weighted by the passes' cost
   double seconds = 0;        ///< since the start
   double seconds_left = 0;   ///< estimate; negative while there is no estimate yet

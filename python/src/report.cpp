@@ -39,6 +39,7 @@ void bind_report(nb::module_& module) {
   nb::class_<Progress>(module, "Progress", "How far a run is.")
       .def_ro("pass_", &Progress::pass, "0 is the first.")
       .def_ro("passes", &Progress::passes)
+      .def_ro("compiling", &Progress::compiling, "Kernels are compiled just now.")
       .def_ro("fraction", &Progress::fraction, "Of the whole work, 0 to 1.")
       .def_ro("seconds", &Progress::seconds, "Since the start.")
       .def_ro("seconds_left", &Progress::seconds_left, "Negative while there is no estimate yet.");

@@ -30,7 +30,7 @@ ProgressBar::~ProgressBar() {
 }
 
 void ProgressBar::show(const Progress& progress) {
-  if (progress.passes < 0) return say_compiling();
+  if (progress.compiling) return say_compiling();
   const auto now = std::chrono::steady_clock::now();
   const bool is_last = progress.fraction >= 1;
   if (!visible_ || (shown_ && !is_last && now - latest_ < std::chrono::milliseconds(200))) return;

@@ -17,9 +17,6 @@ double cost_of(const PassPlan& pass) {
   return fixed_cost + pass.max_neighbors + static_cast<double>(pass.fixed_weights) / weights_per_neighbor;
 }
 
-/// In place of the number of passes.
-constexpr int compiling = -1;
-
 }  // namespace
 
 std::size_t tile_pixels(const PassPlan& pass, int threads) {
@@ -42,22 +39,23 @@ double ProgressMeter::seconds() const {
 
 void ProgressMeter::add(int pass, std::size_t pixels) {
   done_ += pixel_cost_[static_cast<std::size_t>(pass)] * static_cast<double>(pixels);
-  tell(pass, passes_);
+  tell(pass);
 }
 
 void ProgressMeter::add_part(double part) {
   done_ += part;
-  tell(0, passes_);
+  tell(0);
 }
 
-void ProgressMeter::check_compiling() { tell(pass_, compiling); }
+void ProgressMeter::check_compiling() { tell(pass_, true); }
 
-void ProgressMeter::tell(int pass, int passes) {
+void ProgressMeter::tell(int pass, bool compiling) {
   pass_ = pass;
   if (!control_.progress) return;
   Progress progress;
   progress.pass = pass;
-  progress.passes = passes;
+  progress.passes = passes_;
+  progress.compiling = compiling;
   progress.fraction = std::min(done_ / total_, 1.0);
   progress.seconds = seconds();
   progress.seconds_left = progress.fraction > 0.01 ? progress.seconds * (1 / progress.fraction - 1) : -1;

@@ -22,13 +22,13 @@ class ProgressMeter {
   /// Counts a part of a learned estimate, which is 1 as a whole.
   void add_part(double part);
   /// Only tells the caller again, in the middle of something long.
-  void check() { tell(pass_, passes_); }
+  void check() { tell(pass_); }
   /// The same while kernels are compiled.
   void check_compiling();
   double seconds() const;
 
  private:
-  void tell(int pass, int passes);
+  void tell(int pass, bool compiling = false);
 
   const Control& control_;
   int pass_ = 0, passes_ = 0;
