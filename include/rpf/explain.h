@@ -103,7 +103,8 @@ Explanation explain(SampleBuffer samples, const Settings& settings, const Contro
                     const std::optional<PixelPosition>& pixel = {});
 
 /// The same pixel in the picture of a preset: `settings` have Method::learned. Throws as filter() does.
-ExplainedEstimate explain_estimate(SampleBuffer samples, const Settings& settings, const PixelPosition& pixel);
+ExplainedEstimate explain_estimate(SampleBuffer samples, const Settings& settings, const PixelPosition& pixel,
+                                   const Control& control = {});
 
 /// Peak bytes of reading and explaining, as predict_memory() of rpf/filter.h.
 std::uint64_t predict_explain_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings);

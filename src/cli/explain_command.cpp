@@ -58,14 +58,14 @@ void check_files(const Options& o) {
 
 /// Which samples the preset makes the pixel of; it is shown other channels than the published filter.
 ExplainedEstimate estimate_of(const Options& o, const Settings& published, const SampleFileInfo& info,
-                              const PixelPosition& pixel) {
+                              const PixelPosition& pixel, const Control& control) {
   Settings settings = preset_settings(o.preset);
   settings.backend = published.backend;
   settings.threads = published.threads;
   settings.max_memory = published.max_memory;
   SampleReadOptions read_options = read_options_of(o.filter.map, settings.max_memory);
   read_options.slots = needed_layout(info, settings).slots;
-  return explain_estimate(read_samples(o.filter.input, read_options), settings, pixel);
+  return explain_estimate(read_samples(o.filter.input, read_options), settings, pixel, control);
 }
 
 void write_pages(const Options& o, const Explanation& explanation, const std::optional<ExplainedEstimate>& estimate) {
@@ -93,11 +93,13 @@ int run(const Options& o) {
   check_files(o);
   read_options.slots = needed_layout(info, settings).slots;
   std::optional<ExplainedEstimate> estimate;
-  if (pixel) estimate = estimate_of(o, settings, info, *pixel);
+  const std::string progress = o.filter.quiet ? "never" : o.filter.progress;
+  if (pixel)
+    estimate = with_progress(progress,
+                             [&](const Control& control) { return estimate_of(o, settings, info, *pixel, control); });
   SampleBuffer samples = read_samples(o.filter.input, read_options);
-  const Explanation explanation =
-      with_progress(o.filter.quiet ? "never" : o.filter.progress,
-                    [&](const Control& control) { return explain(std::move(samples), settings, control, pixel); });
+  const Explanation explanation = with_progress(
+      progress, [&](const Control& control) { return explain(std::move(samples), settings, control, pixel); });
   write_pages(o, explanation, estimate);
   if (!o.filter.quiet) print_notes(explanation.report);
   if (!o.filter.quiet)

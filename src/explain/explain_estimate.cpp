@@ -9,6 +9,7 @@
 #include "rpf/error.h"
 #include "rpf/explain.h"
 #include "run/backends.h"
+#include "run/memory.h"
 #include "run/progress_meter.h"
 
 namespace rpf {
@@ -23,16 +24,16 @@ class Estimated {
         number_(pixel_number(position, samples)),
         backend_(make_backend(settings)) {
     result_.position = position;
+    check_memory(samples, settings);
     prepared_ = prepare(std::move(samples), settings);
     plan_ = observe(prepared_, find_network(settings.model));
     result_.model = plan_.network->name;
   }
 
-  ExplainedEstimate explain() {
+  ExplainedEstimate explain(const Control& control) {
     const int x = static_cast<int>(number_) % plan_.width, y = static_cast<int>(number_) / plan_.width;
     const Window region = region_of_shares(plan_, x, y), window = window_around(plan_, region);
-    const Control nobody;
-    ProgressMeter meter(nobody);
+    ProgressMeter meter(control);
     get_ready_estimate(backend_, settings_, plan_, meter);
     backend_->load_estimate(prepared_.frame, prepared_.colors, plan_);
     const std::vector<EstimateStage> stages = backend_->trace_estimate(region);
@@ -100,12 +101,13 @@ class Estimated {
 
 }  // namespace
 
-ExplainedEstimate explain_estimate(SampleBuffer samples, const Settings& settings, const PixelPosition& pixel) {
+ExplainedEstimate explain_estimate(SampleBuffer samples, const Settings& settings, const PixelPosition& pixel,
+                                   const Control& control) {
   samples.validate();
   validate(settings);
   if (settings.method != Method::learned)
     throw Error(ErrorKind::usage, "explain_estimate: settings of a preset are expected (Method::learned)");
-  return Estimated(std::move(samples), settings, pixel).explain();
+  return Estimated(std::move(samples), settings, pixel).explain(control);
 }
 
 }  // namespace rpf
