@@ -9,6 +9,8 @@ GROUPS = {"N": ["normal"], "albedo": ["albedo"], "P": ["position"], "second": ["
 
 MOST_VALUES = 8 * 128 * 128  # samples of a step: frames of many samples are cut, so that all steps cost about the same
 ALIGNED = 8  # pixels: cells of the coarsest level
+OFTEN_REPEATED = 0.1  # of the steps have counts that no scene was rendered with
+MOST_REPEATED = 32    # times
 
 
 def chosen_samples(samples, reference, rng):
@@ -18,10 +20,23 @@ def chosen_samples(samples, reference, rng):
     count = 4 if rng.random() < (0.6 if n <= 8 else 0.1) else powers[int(rng.integers(len(powers)))]
     if count < n:
         samples = samples[:, torch.from_numpy(rng.permutation(n)[:count].copy())]
+    times = 2 ** int(rng.integers(1, MOST_REPEATED.bit_length())) if rng.random() < OFTEN_REPEATED else 1
+    count *= times
     while count * height * width > MOST_VALUES and min(height, width) > 4 * ALIGNED:
         height, width = (height // 2, width) if height >= width else (height, width // 2)
     y, x = (int(rng.integers((size - part) // ALIGNED + 1)) * ALIGNED for size, part in zip(samples.shape[2:], (height, width)))
-    return samples[:, :, y:y + height, x:x + width], reference[:, y:y + height, x:x + width]
+    return repeated(samples[:, :, y:y + height, x:x + width], reference[:, y:y + height, x:x + width], times)
+
+
+def repeated(samples, reference, times):
+    """Stands for `times` as many samples: their mean comes as much closer to the reference as that of more would, their spread stays."""
+    if times > 1:
+        samples = samples.float()
+        color = samples[SAMPLE["color"]]
+        mean = color.mean(1, keepdim=True)
+        color += (reference[:, None] - mean) * (1 - times ** -0.5)
+        samples = samples.repeat(1, times, 1, 1)
+    return samples, reference
 
 
 def turned(samples, reference, rng):
