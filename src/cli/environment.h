@@ -5,11 +5,11 @@
 namespace rpf::cli {
 
 /// Threads to use when --threads is not given: RPF_NUM_THREADS (read by the parser), then the scheduler's
-/// SLURM_CPUS_PER_TASK or CUE_THREADS, then the affinity mask.
+/// SLURM_CPUS_PER_TASK, CUE_THREADS or NSLOTS, then the affinity mask.
 int default_threads();
 
-/// Bytes that a run may take: --max-memory in megabytes, for which the parser reads RPF_MAX_MEMORY_MB too; where that
-/// is 0, because neither is given, nine tenths of available_memory().
+/// Bytes that a run may take: --max-memory in megabytes (or RPF_MAX_MEMORY_MB); where that is 0, nine tenths of
+/// available_memory() or of the scheduler's SLURM_MEM_PER_NODE (megabytes) or CUE_MEMORY (kilobytes), if less.
 std::uint64_t memory_limit(std::uint64_t megabytes);
 
 }  // namespace rpf::cli

@@ -3,6 +3,7 @@
 #include <new>
 
 #include "cli/commands.h"
+#include "cli/manual_command.h"
 #include "cli/print.h"
 #include "cli/signals.h"
 #include "rpf/error.h"
@@ -16,6 +17,7 @@ constexpr const char* footer = R"(Examples:
   rpf --preset high render.samples.exr -o filtered.png
   rpf --time-budget 10s render.samples.exr -o filtered.exr
   rpf --preset balanced render.samples.exr -o filtered.exr
+  rpf 'render.####.exr' -o 'filtered.####.exr' --frames 1-100 --skip-existing
   rpf --method bilateral picture.png -o filtered.png
   rpf info render.samples.exr
   rpf compare before.exr filtered.exr reference.exr --side-by-side picture.png
@@ -43,6 +45,7 @@ int run(int argc, char** argv) {
       {"scene", add_scene_command(app)},     {"devices", add_devices_command(app)},
       {"explain", add_explain_command(app)}, {"selftest", add_selftest_command(app)},
       {"bench", add_bench_command(app)},     {"study", add_study_command(app)},
+      {"manual", add_manual_command(app)},
   };
   try {
     app.parse(argc, argv);

@@ -1,0 +1,152 @@
+#include "cli/filter_frame.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "cli/dropped.h"
+#include "cli/feature_files.h"
+#include "cli/method_options.h"
+#include "cli/needs.h"
+#include "cli/print.h"
+#include "cli/progress_bar.h"
+#include "cli/signals.h"
+#include "rpf/error.h"
+#include "rpf/methods.h"
+#include "rpf/outputs.h"
+
+namespace rpf::cli {
+namespace {
+
+std::string list(const std::vector<std::string>& names) {
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
+}
+
+/// The need; more than the limit is refused before anything is read.
+std::uint64_t check_budget(const FilterInput& input, const Settings& settings, bool tell) {
+  const auto need = std::max(predicted_memory(input.info, settings), input.image_bytes);
+  const double need_mb = static_cast<double>(need) / megabyte,
+               limit_mb = static_cast<double>(settings.max_memory) / megabyte;
+  if (tell) print("peak memory: {:.0f} MB of at most {:.0f} MB, {} threads\n", need_mb, limit_mb, settings.threads);
+  check_need(input.info, "filtering", need, settings.max_memory);
+  return need;
+}
+
+/// What a pass with fixed weights did.
+void print_fixed_weights(const Report& report, Method method) {
+  print("backend {}\nmethod: {}\nfeatures: {}\n", report.backend, name_of(method), list(report.features));
+  print("{:>4} {:>4} {:>9} {:>7} {:>8}\n", "pass", "box", "neighbors", "energy", "seconds");
+  for (std::size_t i = 0; i < report.passes.size(); ++i) {
+    const PassReport& p = report.passes[i];
+    print("{:>4} {:>4} {:>9.1f} {:>7.4f} {:>8.2f}\n", i + 1, p.box_width, p.neighbors, p.energy, p.seconds);
+  }
+}
+
+void print_learned(const Report& report) {
+  print("backend {}\nnetwork: {} ({})\nrandom parameters: {}\nfeatures: {}\n", report.backend, report.model,
+        report.model_hash, list(report.random), list(report.features));
+  if (!report.dropped.empty()) print("constant, not looked at: {}\n", list(report.dropped));
+  print("energy {:.4f}\n", report.passes.front().energy);
+}
+
+void print_published(const Report& report) {
+  print("backend {}\nrandom parameters: {}\nfeatures: {}\n", report.backend, list(report.random),
+        list(report.features));
+  if (!report.dropped.empty()) print("constant, not modeled: {}\n", list(report.dropped));
+  if (!report.uninformative.empty()) print("without information, not modeled: {}\n", list(report.uninformative));
+  print("{:>4} {:>4} {:>9} {:>11} {:>6} {:>6} {:>6} {:>7} {:>8}\n", "pass", "box", "neighbors", "acceptance", "W",
+        "alpha", "beta", "energy", "seconds");
+  for (std::size_t i = 0; i < report.passes.size(); ++i) {
+    const PassReport& p = report.passes[i];
+    print("{:>4} {:>4} {:>9.1f} {:>11.3f} {:>6.3f} {:>6.3f} {:>6.3f} {:>7.4f} {:>8.2f}\n", i + 1, p.box_width,
+          p.neighbors, p.acceptance, p.fraction_random, p.alpha, p.beta, p.energy, p.seconds);
+  }
+}
+
+void write_results(const FilterOptions& options, const Result& result) {
+  const SignalGuard guard;  // a signal now waits until the files are whole
+  write_image(options.output, result.image);
+  if (!options.aov.empty()) write_features(options.aov, result.features);
+}
+
+/// The files that will be written, known before the work.
+std::vector<PlannedOutput> planned_outputs(const FilterOptions& options, const FilterInput& input,
+                                           const Settings& settings) {
+  const SampleFileInfo& info = input.info;
+  const Window window = settings.crop.value_or(info.data_window);
+  std::vector<PlannedOutput> outputs;
+  if (!options.output.empty())
+    outputs.push_back({options.output, OutputKind::image, {"R", "G", "B", "A"}, window, input.is_image()});
+  if (options.aov.empty()) return outputs;
+  std::vector<std::string> features;
+  for (const std::string& slot : needed_layout(info, settings).slots)
+    if (is_feature_slot(slot)) features.push_back(slot.substr(slot.find('.') + 1));
+  for (const PlannedOutput& file : planned_features(options.aov, features, window)) outputs.push_back(file);
+  return outputs;
+}
+
+void check_usage(const FilterOptions& options) {
+  if (options.input.empty())
+    throw Error(ErrorKind::usage, "no input: name a sample file, as in rpf render.samples.exr -o filtered.exr");
+  if (options.output.empty() && !options.dry_run)
+    throw Error(ErrorKind::usage, "no output: name the image to write with -o, as in -o filtered.exr");
+}
+
+void check_features(const FilterOptions& options, const SampleFileInfo& info) {
+  const auto is_feature = [](const SampleFileChannel& channel) { return is_feature_slot(channel.slot); };
+  if (!options.aov.empty() && std::none_of(info.channels.begin(), info.channels.end(), is_feature))
+    throw Error(ErrorKind::usage, fmt::format("--aov: \"{}\" has no features; leave it out", info.path));
+}
+
+}  // namespace
+
+OpenFrame open_frame(const FilterOptions& options) {
+  check_usage(options);
+  OpenFrame frame{options, settings_of(options), {}, {}, 0};
+  frame.reading = read_options_of(options.map, frame.settings.max_memory);
+  frame.input = open_input(options.input, frame.settings.method, frame.reading);
+  const SampleFileInfo& info = frame.input.info;
+  if (frame.input.is_image() && options.sigma_color == 0) frame.settings.sigma_color = image_sigma_color;
+  check_features(options, info);
+  frame.need = check_budget(frame.input, frame.settings, options.verbose || options.dry_run);
+  if (frame.settings.crop) check_crop(*frame.settings.crop, info.data_window);
+  check_outputs(planned_outputs(options, frame.input, frame.settings), {options.input});
+  const SampleFileInfo stored = as_image(info, options.output);
+  check_in_place(stored, options.output);
+  if (!options.quiet) tell_dropped(stored);
+  frame.reading.slots = needed_layout(info, frame.settings).slots;
+  return frame;
+}
+
+std::uint64_t read_bytes(const OpenFrame& frame) {
+  const SampleFileInfo& info = frame.input.info;
+  const std::uint64_t columns = frame.reading.slots->size() + spare_columns;
+  return (info.sample_count * columns + info.data_window.pixel_count()) * sizeof(float);
+}
+
+ReadFrame read_frame(const OpenFrame& frame) {
+  return {read_input(frame.input, frame.reading), hash_of_file(frame.options.input)};
+}
+
+Result filter_and_write(const OpenFrame& frame, const Settings& settings, ReadFrame read) {
+  const FilterOptions& options = frame.options;
+  Result result = with_progress(options.quiet ? "never" : options.progress, [&](const Control& control) {
+    return filter(std::move(read.samples), settings, control);
+  });
+  for (Image* image : {&result.image, &result.features})
+    mark(*image, {read.input_hash, hash_of_settings(settings, options.map)});
+  write_results(options, result);
+  return result;
+}
+
+void print_report(const Report& report, Method method) {
+  if (method == Method::rpf)
+    print_published(report);
+  else if (method == Method::learned)
+    print_learned(report);
+  else
+    print_fixed_weights(report, method);
+}
+
+}  // namespace rpf::cli

@@ -1,0 +1,43 @@
+// One frame from file to file: checked, read, filtered, written. What a single run and a sequence share.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "bench/frame_run.h"
+#include "cli/filter_input.h"
+#include "cli/filter_options.h"
+#include "cli/origin.h"
+#include "rpf/filter.h"
+
+namespace rpf::cli {
+
+/// A frame whose header, outputs and needs were checked.
+struct OpenFrame {
+  FilterOptions options;  ///< with this frame's files
+  Settings settings;
+  SampleReadOptions reading;
+  FilterInput input;
+  std::uint64_t need = 0;  ///< peak bytes of reading and filtering
+};
+
+/// Refuses what cannot be done before anything is read. Throws Error.
+OpenFrame open_frame(const FilterOptions& options);
+
+struct ReadFrame {
+  SampleBuffer samples;
+  std::string input_hash;
+};
+
+/// Bytes that a frame takes once it is read.
+std::uint64_t read_bytes(const OpenFrame& frame);
+
+ReadFrame read_frame(const OpenFrame& frame);
+
+/// Filters with these settings and writes; a signal meanwhile throws Error(cancelled) and leaves nothing.
+Result filter_and_write(const OpenFrame& frame, const Settings& settings, ReadFrame read);
+
+/// What -v says of a run.
+void print_report(const Report& report, Method method);
+
+}  // namespace rpf::cli

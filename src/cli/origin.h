@@ -1,0 +1,32 @@
+// What an image was made from and how, as attributes of its file, so that a sequence that is run again does only what
+// is missing.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rpf/image.h"
+#include "rpf/settings.h"
+
+namespace rpf::cli {
+
+/// Hashes as 16 hexadecimal digits: of the input's bytes; of everything chosen that changes the picture, and of what
+/// chose it, the version of this program.
+struct Origin {
+  std::string input, settings;
+};
+
+/// Throws Error(input) where it cannot be read.
+std::string hash_of_file(const std::string& path);
+
+/// `map`: --map, which decides what is read.
+std::string hash_of_settings(const Settings& settings, const std::vector<std::string>& map);
+
+/// Writes them into the attributes rpf:inputHash and rpf:settingsHash.
+void mark(Image& image, const Origin& origin);
+
+/// Whether a whole image is there that was made from this input with these settings. Formats that hold no attributes
+/// cannot tell, so theirs is always made again.
+bool is_made(const std::string& path, const Origin& origin);
+
+}  // namespace rpf::cli
