@@ -3,7 +3,6 @@
 #include <iostream>
 #include <random>
 
-#include "rpf/presets.h"
 #include "rpf/rpf.h"
 
 namespace {

@@ -18,6 +18,7 @@ struct StageResult {
   std::uint64_t largest_ulp = 0;  ///< units in the last place between the two, of floats; of integers the difference
 };
 
+/// A frame that ran on both, stage by stage.
 struct CaseResult {
   std::string name;
   std::vector<StageResult> stages;  ///< in the order of the computation
@@ -25,6 +26,7 @@ struct CaseResult {
   double seconds = 0;
 };
 
+/// What came out.
 struct ConformanceReport {
   DeviceInfo device;
   std::uint64_t tolerance = 0;  ///< largest_ulp allowed for this class of devices
@@ -36,6 +38,7 @@ struct ConformanceReport {
   std::size_t failures() const;
 };
 
+/// What to run.
 struct ConformanceOptions {
   std::string device;  ///< as Settings::device
   bool full = false;   ///< all cases; else a choice of them that takes about a minute

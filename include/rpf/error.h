@@ -21,7 +21,9 @@ enum class ErrorKind {
 /// or option, says what was expected and what to do next.
 class Error : public std::runtime_error {
  public:
+  /// `message`: one sentence, as above.
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  /// What went wrong.
   ErrorKind kind() const { return kind_; }
 
  private:

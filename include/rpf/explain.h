@@ -53,6 +53,7 @@ struct ExplainedColor {
   float alpha = 0;
 };
 
+/// Everything about one pixel.
 struct ExplainedPixel {
   PixelPosition position;
   std::uint32_t samples = 0, drawn = 0;      ///< of its own; candidates
@@ -66,6 +67,7 @@ struct ExplainedPixel {
   std::array<float, 3> mean{}, filtered{};  ///< radiance: plain mean, and after the pass
 };
 
+/// What explain() found.
 struct Explanation {
   /// Over the whole data window; the channels are those of docs/explain.md: R, G, B, filtered.R, W.mean, share.lens ...
   Image layers;

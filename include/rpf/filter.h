@@ -54,6 +54,7 @@ struct InputNote {
 /// nothing does.
 std::vector<InputNote> check_conventions(const SampleBuffer& samples);
 
+/// What a run was: who ran, what was modeled, what was found, what every pass did.
 struct Report {
   std::string backend;                        ///< that ran, with its device: "cpu", "opencl (device)"; for "auto" why
   std::string model, model_hash;              ///< the network of a learned estimate: its name, and the hash of its file
@@ -65,6 +66,7 @@ struct Report {
   double seconds = 0;
 };
 
+/// What filter() makes.
 struct Result {
   Image image;     ///< R, G, B (A), over the crop or the whole data window
   Image features;  ///< the filtered features where Settings::filter_features asks for them: channels N.X, albedo.R, ...

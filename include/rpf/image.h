@@ -15,7 +15,9 @@ struct Window {
   int x = 0, y = 0;
   int width = 0, height = 0;
 
+  /// width * height.
   std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+  /// The same place and size.
   bool operator==(const Window& o) const { return x == o.x && y == o.y && width == o.width && height == o.height; }
 };
 
@@ -38,9 +40,11 @@ struct Image {
   std::vector<std::string> half_channels = {};  ///< that were stored as half
   std::vector<std::string> dropped = {};  ///< what the file has beside this: attributes of types without a place here
 
+  /// Values of a pixel.
   std::size_t channel_count() const { return channels.size(); }
   /// The channels of pixel number `index` (row-major in the data window).
   float* pixel(std::size_t index) { return pixels.data() + index * channels.size(); }
+  /// The same, to be read.
   const float* pixel(std::size_t index) const { return pixels.data() + index * channels.size(); }
 };
 

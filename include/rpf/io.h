@@ -15,6 +15,7 @@
 
 namespace rpf {
 
+/// How a file stores the values of a channel.
 enum class PixelType { half_float, full_float, unsigned_int };
 
 /// One channel of a sample file and the slot it fills.
@@ -39,6 +40,7 @@ struct SampleFileInfo {
   std::vector<std::string> dropped_attributes = {};  ///< of types that Metadata does not have, as "name (type)"
 };
 
+/// What to read of a sample file, and how.
 struct SampleReadOptions {
   /// slot -> channel name in the file, beats every automatic assignment; an empty channel name leaves the slot out.
   std::map<std::string, std::string> slot_map;

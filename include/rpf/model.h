@@ -3,7 +3,6 @@
 
 #include <string>
 
-#pragma GCC visibility push(default)
 namespace rpf {
 
 /// The hash of the network that Settings::model means, as Report::model_hash has it: 16 hexadecimal digits. Throws
@@ -11,4 +10,3 @@ namespace rpf {
 std::string model_hash(const std::string& model);
 
 }  // namespace rpf
-#pragma GCC visibility pop

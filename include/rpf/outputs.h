@@ -8,6 +8,7 @@
 
 namespace rpf {
 
+/// What a file will hold.
 enum class OutputKind { image, samples, page };
 
 /// A file that is going to be written.

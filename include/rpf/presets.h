@@ -10,6 +10,7 @@
 
 namespace rpf {
 
+/// A preset and what it is for.
 struct PresetInfo {
   std::string name;
   std::string purpose;  ///< one line: what it is for, and what it gives up

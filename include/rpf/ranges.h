@@ -5,12 +5,14 @@
 
 namespace rpf {
 
+/// The numbers that an option takes.
 struct NumberRange {
   double least = 0, most = 0;
   const char* example = "";
   bool whole = false, odd = false;
   bool or_zero = false;  ///< 0 is possible beside the range
 
+  /// False for NaN too.
   bool has(double value) const;
   /// "a whole number from 1 to 16 is expected, such as 4".
   std::string expected() const;

@@ -12,11 +12,12 @@
 namespace rpf {
 
 /// Which slot stands in which column of a sample's record. Slots are the canonical channel names of
-/// docs/file-format.md: R G B [A] film.X film.Y [weight] random.<group>[.<component>] feature.<group>[.<component>]
+/// docs/file-format.md: R G B [A] film.X film.Y [weight] random.GROUP[.COMPONENT] feature.GROUP[.COMPONENT]
 /// [feature.hit]
 struct SampleLayout {
   std::vector<std::string> slots;
 
+  /// Values of a record.
   std::size_t size() const { return slots.size(); }
   /// Column of `slot`, or nothing where the layout does not have it.
   std::optional<std::size_t> find(const std::string& slot) const;
@@ -27,9 +28,9 @@ struct SampleLayout {
 constexpr const char *format_attribute = "rpf:format", *version_attribute = "rpf:version";
 constexpr const char *seed_attribute = "rpf:seed", *seeds_attribute = "rpf:seeds";
 
-/// True for the slots of random parameters: random.<group>[.<component>].
+/// True for the slots of random parameters: random.GROUP[.COMPONENT].
 bool is_random_slot(const std::string& slot);
-/// True for the slots of modeled features: feature.<group>[.<component>], without the mask feature.hit.
+/// True for the slots of modeled features: feature.GROUP[.COMPONENT], without the mask feature.hit.
 bool is_feature_slot(const std::string& slot);
 /// "lens" of "random.lens.U", "N" of "feature.N.X"; empty for the slots that have no group.
 std::string group_of(const std::string& slot);
@@ -51,10 +52,14 @@ struct SampleBuffer {
   /// Slots that were stored as half: there an infinite value is light that overflowed, at 65504.
   std::vector<std::string> half_slots = {};
 
+  /// Samples of all pixels together.
   std::size_t sample_count() const { return first_sample.empty() ? 0 : first_sample.back(); }
+  /// The values of sample number `sample`, in the layout's order.
   float* record(std::size_t sample) { return values.data() + sample * layout.size(); }
+  /// The same, to be read.
   const float* record(std::size_t sample) const { return values.data() + sample * layout.size(); }
 
+  /// Whether the slot was stored as half.
   bool is_half(const std::string& slot) const;
 
   /// Throws Error(input) that names the first invariant that does not hold.

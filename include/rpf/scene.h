@@ -20,6 +20,7 @@ enum class SceneSampler {
   sobol        ///< Owen-scrambled Sobol pairs, shuffled for every pair of dimensions
 };
 
+/// How to render.
 struct SceneOptions {
   int width = 480, height = 270;  ///< pixels, 1 .. 1,048,576 each
   int samples = 4;                ///< a pixel, 1 .. 1,048,576; the mean number where counts vary
@@ -40,6 +41,7 @@ struct SceneOptions {
   int threads = 0;  ///< 0: all cores of the process's affinity mask. Never changes the result.
 };
 
+/// A scene and what it is for.
 struct SceneInfo {
   std::string name;
   std::string purpose;  ///< one line

@@ -32,6 +32,7 @@ enum class Method {
   learned           ///< from a network that looks at every sample
 };
 
+/// What filter() is to do.
 struct Settings {
   /// Methods with fixed weights know box_widths, the sigmas, features, clamp_negative and everything from
   /// filter_features on; learned knows model, random, features, clamp_negative and everything from filter_features on.

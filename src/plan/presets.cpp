@@ -1,6 +1,4 @@
-#pragma GCC visibility push(default)  // cmake/public.h, for a header that rpf.h does not have
 #include "rpf/presets.h"
-#pragma GCC visibility pop
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
