@@ -1,14 +1,10 @@
 #include "cpu/cpu_backend.h"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <chrono>
 #include <future>
 
 #include "cpu/box.h"
-#include "cpu/must_stop.h"
 #include "cpu/neighborhood.h"
 #include "cpu/statistics.h"
 #include "cpu/weighting.h"
@@ -100,24 +96,24 @@ void CpuBackend::keep_explanation(const Window& tile, std::uint32_t pixel, const
 
 void CpuBackend::run(int pass, const Window& tile) {
   if (plan_->explain) explained_.assign(tile.pixel_count() * (pair_count(plan_->variables) + 1), 0.0F);
-  tbb::enumerable_thread_specific<Workspace> workspaces;
-  run_watched(static_cast<int>(tile.pixel_count()), [&](int i) {
-    const int x = tile.x + i % tile.width, y = tile.y + i / tile.width;
+  std::vector<Workspace> workspaces(static_cast<std::size_t>(threads_));
+  run_watched(tile.pixel_count(), [&](std::size_t i, std::size_t worker) {
+    const int place = static_cast<int>(i), x = tile.x + place % tile.width, y = tile.y + place / tile.width;
     filter_pixel(pass, static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame_->width) + x, tile,
-                 workspaces.local());
+                 workspaces[worker]);
   });
 }
 
-void CpuBackend::run_watched(int count, const std::function<void(int)>& body) {
+void CpuBackend::run_watched(std::size_t count, const Workers::Body& body) {
   constexpr auto between_checks = std::chrono::milliseconds(100);
-  tbb::task_group_context context;
-  const auto work = [&] { arena_.execute([&] { tbb::parallel_for(0, count, body, context); }); };
+  Workers workers(threads_);
+  const auto work = [&] { workers.for_all(0, count, body); };
   if (!check_) return work();
   std::future<void> done = std::async(std::launch::async, work);
   try {
     while (done.wait_for(between_checks) != std::future_status::ready) check_();
   } catch (...) {
-    context.cancel_group_execution();
+    workers.stop();
     done.wait();
     throw;
   }
@@ -128,7 +124,7 @@ void CpuBackend::end_pass() { colors_.swap(next_colors_); }
 
 PixelTrace CpuBackend::trace(int pass, std::uint32_t pixel) {
   PixelTrace t;
-  run_watched(1, [&](int) { t = trace_here(pass, pixel); });
+  run_watched(1, [&](std::size_t, std::size_t) { t = trace_here(pass, pixel); });
   return t;
 }
 

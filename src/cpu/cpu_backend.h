@@ -1,11 +1,9 @@
 // The reference: plain loops over the kernels' formulas, parallel over pixels, the same bits for any number of threads.
 #pragma once
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <functional>
 
+#include "parallel/workers.h"
 #include "seam/backend.h"
 
 namespace rpf {
@@ -13,11 +11,7 @@ namespace rpf {
 class CpuBackend : public Backend {
  public:
   /// `reason`: why it is this backend, where that was not the user's choice.
-  explicit CpuBackend(int threads, std::string reason = {})
-      : reason_(std::move(reason)),
-        limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
-        threads_(threads),
-        arena_(threads) {}
+  explicit CpuBackend(int threads, std::string reason = {}) : reason_(std::move(reason)), threads_(threads) {}
 
   std::string description() const override { return reason_.empty() ? "cpu" : "cpu (" + reason_ + ")"; }
   void load(const Frame& frame, std::vector<float> colors, const Plan& plan) override;
@@ -42,7 +36,7 @@ class CpuBackend : public Backend {
                                      std::vector<EstimateStage>* stages);
   /// Runs body(0) .. body(count - 1) on all threads while check_ is called here. Where that throws the bodies end
   /// early: they ask must_stop().
-  void run_watched(int count, const std::function<void(int)>& body);
+  void run_watched(std::size_t count, const Workers::Body& body);
   /// All sections for a pixel of the tile; nothing for one without samples.
   void filter_pixel(int pass, std::uint32_t pixel, const Window& tile, Workspace& w);
   PixelTrace trace_here(int pass, std::uint32_t pixel) const;
@@ -50,9 +44,7 @@ class CpuBackend : public Backend {
   void keep_explanation(const Window& tile, std::uint32_t pixel, const Workspace& w);
 
   std::string reason_;
-  tbb::global_control limit_;  ///< lets oneTBB have more threads than cores where the caller asks for them
   int threads_;
-  tbb::task_arena arena_;
   const Frame* frame_ = nullptr;
   const Plan* plan_ = nullptr;
   const EstimatePlan* estimate_plan_ = nullptr;

@@ -1,6 +1,4 @@
 // The learned estimator on the reference (docs/network.md): stage after stage, each parallel over rows.
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 #include "cpu/cpu_backend.h"
@@ -28,12 +26,14 @@ std::vector<float> CpuBackend::estimate_window(const Window& window, const Estim
       samples += frame_->samples(static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_->width) +
                                  static_cast<std::size_t>(x));
   const double all = Estimate::work(*estimate_plan_, window, samples);
+  Workers workers(threads_);
   const auto for_rows = [&](int rows, double row_work, const std::function<void(int)>& row) {
     const double at_once = work_at_once * threads_ / std::max(row_work, 1.0);
     const int step = static_cast<int>(std::clamp(at_once, 1.0, static_cast<double>(rows)));
     for (int first = 0; first < rows; first += step) {
       const int end = std::min(first + step, rows);
-      arena_.execute([&] { tbb::parallel_for(first, end, row); });
+      workers.for_all(static_cast<std::size_t>(first), static_cast<std::size_t>(end),
+                      [&](std::size_t i, std::size_t /*worker*/) { row(static_cast<int>(i)); });
       progress(row_work * (end - first) / all);
     }
   };

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cpu/must_stop.h"
+#include "parallel/workers.h"
 #include "rpf_math.h"
 
 namespace rpf {

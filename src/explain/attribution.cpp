@@ -1,13 +1,11 @@
 #include "explain/attribution.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "explain/blur.h"
+#include "parallel/workers.h"
 
 namespace rpf {
 namespace {
@@ -70,14 +68,13 @@ class Pairing {
   }
 
   Attribution attribute(int threads, const std::function<void()>& after_rows) {
-    tbb::task_arena arena(threads);
+    Workers workers(threads);
     for (int begin = 0; begin < frame_.height; begin += rows_at_once) {
       const int end = std::min(begin + rows_at_once, frame_.height);
-      arena.execute([&] {
-        tbb::parallel_for(begin, end, [&](int y) {
-          for (int x = 0; x < frame_.width; ++x) pair_pixel(x, y);
-        });
-      });
+      workers.for_all(static_cast<std::size_t>(begin), static_cast<std::size_t>(end),
+                      [&](std::size_t y, std::size_t /*worker*/) {
+                        for (int x = 0; x < frame_.width; ++x) pair_pixel(x, static_cast<int>(y));
+                      });
       after_rows();
     }
     Attribution result;

@@ -1,12 +1,9 @@
 #include "scene/workforce.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <chrono>
 
+#include "parallel/workers.h"
 #include "rpf/error.h"
 
 namespace rpf::scene {
@@ -41,13 +38,11 @@ void for_all_pixels(const Work& work, const Control& control, const std::functio
   const auto piece =
       std::max<std::size_t>(control.tile_pixels > 0 ? control.tile_pixels : static_cast<std::size_t>(pixels_a_piece),
                             static_cast<std::size_t>(threads));
-  // Lets oneTBB have more threads than cores where the caller asks for them.
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
+  Workers workers(threads);
   Meter meter(control);
   for (std::size_t begin = 0; begin < work.pixels; begin += piece) {
     const std::size_t end = std::min(begin + piece, work.pixels);
-    arena.execute([&] { tbb::parallel_for(begin, end, render); });
+    workers.for_all(begin, end, [&](std::size_t pixel, std::size_t /*worker*/) { render(pixel); });
     meter.tell(static_cast<double>(end) / static_cast<double>(work.pixels));
   }
 }

@@ -12,23 +12,24 @@ ROOMS = {
     "kernels": "",
     "include": "",
     "src/parts": "",                  # where the files beside the library are
+    "src/parallel": "",               # work that several threads share
     # what was rendered; what will be done about it; what a backend is asked
     "src/frame": "kernels",           # the sums of resolve
     "src/plan": "src/frame kernels",
     "src/learned": "src/frame kernels",  # the estimator of docs/network.md: its networks, what it is shown
     "src/seam": "src/frame src/plan src/learned kernels",
     # those who do it; what follows a pass; the run
-    "src/cpu": "src/frame src/plan src/learned src/seam kernels",
+    "src/cpu": "src/parallel src/frame src/plan src/learned src/seam kernels",
     "src/opencl": "src/parts src/frame src/plan src/learned src/seam kernels",
     "src/probe": "src/opencl",        # a program: asks drivers in a process of its own
     "src/run": "src/frame src/plan src/learned src/seam src/cpu src/opencl kernels",
-    "src/explain": "src/frame src/plan src/learned src/seam src/run kernels",
+    "src/explain": "src/parallel src/frame src/plan src/learned src/seam src/run kernels",
     "src/conformance": "src/frame src/learned src/seam src/cpu src/opencl kernels",
     # beside the filter, sharing nothing with it but the public headers
     "src/io": "src/parts",
     "src/images": "src/io",           # a library of its own; src/io loads it
     "src/metrics": "",
-    "src/scene": "",
+    "src/scene": "src/parallel",
     "src/c_api": "",                  # the public headers once more, for other languages
     # the command
     "src/bench": "",
@@ -47,7 +48,7 @@ ROOMS["tests"] = set(ROOMS) - {"src/images", "src/cli", "examples", "bench", "py
 # Third-party headers, each in one room only (beside the tests).
 LIBRARIES = {
     "OpenEXR/": {"src/io"}, "Imf": {"src/io"}, "libdeflate": {"src/io"}, "OpenImageIO/": {"src/images"}, "CL/": {"src/opencl"}, "CLI/": {"src/cli"},
-    "embree3/": {"src/scene"}, "nanobind/": {"python"}, "tbb/": {"src/cpu", "src/explain", "src/scene"}, "benchmark/": {"bench"},
+    "embree3/": {"src/scene"}, "nanobind/": {"python"}, "tbb/": set(), "benchmark/": {"bench"},
     "fmt/": {"src/c_api", "src/frame", "src/plan", "src/learned", "src/run", "src/opencl", "src/conformance", "src/explain", "src/io", "src/images", "src/metrics", "src/scene", "src/cli", "src/bench", "src/report", "src/study"},
     "nlohmann/": {"src/learned", "src/cli", "src/io", "src/conformance", "src/bench", "src/study"},  # what is printed as JSON; the header of raw sample files
 }

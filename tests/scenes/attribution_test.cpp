@@ -2,14 +2,15 @@
 // against frames in which only one group of random parameters is alive.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
+#include <functional>
 
 #include "explain/attribution.h"
 #include "frame/prepare.h"
+#include "parallel/workers.h"
 #include "rpf/explain.h"
+#include "rpf/filter.h"
 #include "scene/integrator.h"
 #include "scene/random.h"
 #include "scene/record.h"
@@ -23,6 +24,11 @@ namespace {
 enum Group : std::size_t { lens, time, light };
 constexpr std::array<const char*, 3> group_names = {"lens", "time", "light"};
 constexpr int width = 480, height = 270;
+
+/// Calls `body` for 0 .. count - 1 on all cores.
+void for_all(std::size_t count, const std::function<void(std::size_t)>& body) {
+  Workers(available_threads()).for_all(0, count, [&](std::size_t i, std::size_t /*worker*/) { body(i); });
+}
 
 /// `draw`, but for one group, which is `other`'s.
 scene::Draw with_group_of(scene::Draw draw, const scene::Draw& other, std::size_t group) {
@@ -126,7 +132,7 @@ TEST(NoiseOfCombined, IsAttributedToTheOnlyGroupThatMakesIt) {
   constexpr std::size_t step = 2, across = width / step, down = height / step;  // every other pixel and row
   std::vector<Truth> truth(across * down);
   const auto pixel_of = [&](std::size_t i) { return i / across * step * width + i % across * step; };
-  tbb::parallel_for(std::size_t{0}, truth.size(), [&](std::size_t i) { truth[i] = measure(combined, pixel_of(i)); });
+  for_all(truth.size(), [&](std::size_t i) { truth[i] = measure(combined, pixel_of(i)); });
   for (const int samples : {4, 8}) {
     SceneOptions options;
     options.samples = samples;
@@ -175,7 +181,7 @@ SampleBuffer with_one_group(const Combined& combined, std::size_t group, std::ui
   for (std::size_t p = 0; p <= pixels; ++p) buffer.first_sample.push_back(static_cast<std::uint32_t>(p) * samples);
   buffer.values.resize(pixels * samples * slots);
   const SceneOptions options;
-  tbb::parallel_for(std::size_t{0}, pixels, [&](std::size_t pixel) {
+  for_all(pixels, [&](std::size_t pixel) {
     const scene::PixelSampler sampler(SceneSampler::random, scene::hash(21, static_cast<std::uint32_t>(pixel)),
                                       samples);
     for (std::uint32_t i = 0; i < samples; ++i) {
