@@ -17,10 +17,18 @@ install(FILES ${RPF_MANUAL}/rpf.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-c
 install(FILES ${RPF_MANUAL}/_rpf DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT command)
 install(FILES ${RPF_MANUAL}/rpf.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT command)
 
+# Who answers for the packages that are built here, as Debian's own tools ask for it. An address that ends in .invalid
+# is nobody's (RFC 2606).
+set(maintainer "local build of rpf <nobody@rpf.invalid>")
+if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
+  set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
+set(RPF_MAINTAINER "${maintainer}" CACHE STRING "Maintainer of the Debian packages: name <address>")
+
 # ---- the packages -------------------------------------------------------------------------------------------------------
 set(CPACK_PACKAGE_NAME rpf)
 set(CPACK_PACKAGE_VENDOR "rpf")
-set(CPACK_PACKAGE_CONTACT "rpf maintainers <maintainers@rpf.invalid>")
+set(CPACK_PACKAGE_CONTACT "${RPF_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)

@@ -12,6 +12,14 @@ from command_case import EXAMPLE, PROJECT, RPF, CommandCase
 # The document's code is what is tested.
 DOCUMENT = (PROJECT / "docs" / "file-format.md").read_text(encoding="utf-8")
 exec(re.search(r"```python\n(.*?)```", DOCUMENT, re.S).group(1))  # write_samples, read_samples
+MAIN = """
+int main(int, char** argv) {
+  std::vector<unsigned> counts = {2, 0, 1};
+  std::map<std::string, std::vector<float>> channels = {
+      {"R", {1, 2, 3}}, {"G", {4, 5, 6}}, {"B", {7, 8, 9}}, {"film.X", {0.25F, 0.5F, 2.75F}}, {"film.Y", {0.5F, 0.5F, 0.5F}}};
+  write_samples(argv[1], 3, 1, counts, channels);
+}
+"""
 
 
 def run(*arguments):
@@ -33,6 +41,20 @@ class SampleFilesTest(CommandCase):
     def frame(self, counts, names=("R", "G", "B", "film.X", "film.Y", "random.time")):
         """Random bits, so infinities and NaN of all kinds are among them."""
         return {name: self.random.integers(0, 2**32, int(np.sum(counts)), np.uint32).view("<f4") for name in names}
+
+    # ---- the document's code in C++
+
+    def test_cpp_of_the_document_writes_what_is_read(self):
+        source, program = self.folder / "write.cpp", self.folder / "write"
+        source.write_text(re.search(r"```cpp\n(.*?)```", DOCUMENT, re.S).group(1) + MAIN)
+        flags = subprocess.run(["pkg-config", "--cflags", "--libs", "OpenEXR"], capture_output=True, text=True, check=True).stdout.split()
+        subprocess.run(["c++", "-std=c++17", str(source), "-o", str(program), *flags], check=True)
+        subprocess.run([str(program), str(self.folder / "a.exr")], check=True)
+        self.expect(run("convert", self.folder / "a.exr", "-o", self.folder / "a.rpf"), 0, "3x1 pixels")
+        _, counts, channels = read_samples(self.folder / "a.rpf")
+        np.testing.assert_array_equal(counts, [2, 0, 1])
+        np.testing.assert_array_equal(channels["film.X"], np.float32([0.25, 0.5, 2.75]))
+        np.testing.assert_array_equal(channels["B"], np.float32([7, 8, 9]))
 
     # ---- convert
 
