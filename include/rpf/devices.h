@@ -22,6 +22,10 @@ struct DeviceInfo {
 /// Sets POCL_CACHE_DIR, where nobody has, to a folder of our own below RPF_CACHE_DIR, XDG_CACHE_HOME or HOME.
 std::vector<DeviceInfo> devices();
 
+/// Installed OpenCL drivers that this process cannot load, a text each: the file that names the driver, and the
+/// loader's reason. Throws Error(device) as devices() does.
+std::vector<std::string> unloaded_drivers();
+
 /// Computes on a device what the numeric contract promises and compares every bit with the host's results. Empty where
 /// all agree, else the first disagreement. Throws Error(device) where the device cannot be used at all.
 std::string check_device(int index);

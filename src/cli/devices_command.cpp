@@ -36,6 +36,7 @@ Command add_devices_command(CLI::App& app) {
     for (const DeviceInfo& device : found) print_device(device);
     if (found.empty())
       print("no OpenCL device; install one (Debian: apt-get install pocl-opencl-icd), or use --backend=cpu\n");
+    for (const std::string& failure : unloaded_drivers()) print("{}\n", failure);
     return 0;
   };
 }

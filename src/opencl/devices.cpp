@@ -1,5 +1,6 @@
 #include "rpf/devices.h"
 
+#include "opencl/drivers.h"
 #include "opencl/probe.h"
 #include "opencl/session.h"
 
@@ -37,6 +38,11 @@ std::vector<DeviceInfo> devices() {
     for (const cl::Device& device : all_devices()) result.push_back(describe(device, static_cast<int>(result.size())));
     return result;
   });
+}
+
+std::vector<std::string> unloaded_drivers() {
+  devices();
+  return failures_to_load();
 }
 
 std::string check_device(int index) { return probe_device(index); }

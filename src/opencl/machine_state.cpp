@@ -12,11 +12,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <vector>
 
+#include "opencl/drivers.h"
 #include "opencl/environment.h"
 #include "opencl/kernel_cache.h"
 #include "rpf/version.h"
@@ -90,21 +89,9 @@ std::string driver_state() {
   for (const char* folder :
        {"/usr/local/lib", "/usr/lib/x86_64-linux-gnu", "/usr/lib/aarch64-linux-gnu", "/usr/lib64", "/usr/lib"})
     libraries.emplace_back(folder);
-  const std::string wanted = environment("OCL_ICD_VENDORS");
-  std::vector<fs::path> files;
-  std::error_code failed;
-  for (fs::directory_iterator entry(wanted.empty() ? "/etc/OpenCL/vendors" : wanted, failed), end;
-       !failed && entry != end; entry.increment(failed))
-    files.push_back(entry->path());
-  if (files.empty() && !wanted.empty()) files.emplace_back(wanted);
-  std::sort(files.begin(), files.end());
   std::string text;
-  for (const fs::path& file : files) {
-    std::ifstream content(file);
-    std::string library;
-    std::getline(content, library);
-    text += file_state(file) + first_found(library, libraries);
-  }
+  for (const InstalledDriver& driver : installed_drivers())
+    text += file_state(driver.file) + first_found(driver.library, libraries);
   return text;
 }
 

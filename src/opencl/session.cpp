@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "opencl/address_space.h"
+#include "opencl/drivers.h"
 #include "opencl/kernel_cache.h"
 #include "opencl/kernel_source.h"
 #include "opencl/probe.h"
@@ -35,6 +36,12 @@ int index_of(const std::string& text, std::size_t count) {
   if (!digits || text.size() > 6) return -1;
   const int index = std::stoi(text);
   return static_cast<std::size_t>(index) < count ? index : -1;
+}
+
+/// What could not be loaded, behind a statement about what is there.
+std::string failures_in_brackets() {
+  const std::vector<std::string> failures = failures_to_load();
+  return failures.empty() ? "" : fmt::format(" ({})", fmt::join(failures, "; "));
 }
 
 std::string key_of(const std::string& file, const std::string& definitions, const std::string& more) {
@@ -99,7 +106,9 @@ int listed_device(const std::string& wanted) {
   if (devices.empty())
     throw Error(
         ErrorKind::device,
-        "no OpenCL device is there; install one (Debian: apt-get install pocl-opencl-icd) or use --backend=cpu");
+        fmt::format(
+            "no OpenCL device is there{}; install one (Debian: apt-get install pocl-opencl-icd) or use --backend=cpu",
+            failures_in_brackets()));
   if (wanted.empty()) return 0;
   if (const int index = index_of(wanted, devices.size()); index >= 0) return index;
   int found = -1;
@@ -111,8 +120,8 @@ int listed_device(const std::string& wanted) {
     found = static_cast<int>(i);
   }
   if (found < 0)
-    throw Error(ErrorKind::device,
-                fmt::format("--device '{}': no such device; there are: {}", wanted, names_of(devices)));
+    throw Error(ErrorKind::device, fmt::format("--device '{}': no such device; there are: {}{}", wanted,
+                                               names_of(devices), failures_in_brackets()));
   return found;
 }
 

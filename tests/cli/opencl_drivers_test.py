@@ -124,6 +124,36 @@ class Drivers(unittest.TestCase):
         slow = self.driver("for (time_t end = time(0) + 24; time(0) < end; usleep(60000)) for (clock_t begin = clock(); clock() - begin < CLOCKS_PER_SEC / 50;) {}")
         self.expect(self.filter("opencl", **slow), 5, "no OpenCL device")
 
+    def compile(self, text, library, *options):
+        subprocess.run(["cc", "-shared", "-fPIC", "-x", "c", "-o", library, "-", *options], input=text, text=True, check=True)
+
+    def test_a_driver_with_a_library_of_its_own_that_we_might_have_too(self):
+        """As Intel's runtime: it brings a newer TBB than Debian's, and there is one library of a name in a process."""
+        vendors = self.folder / "vendors"
+        vendors.mkdir()
+        self.compile("void newer(void) {}", vendors / "libtbb.so.12", "-Wl,-soname,libtbb.so.12")
+        self.compile("void newer(void); void* clGetExtensionFunctionAddress(const char* name) { newer(); return 0; }", vendors / "driver.so",
+                     f"-Wl,-rpath,{vendors},-z,now", "-x", "none", vendors / "libtbb.so.12")
+        self.expect(self.run_rpf("devices", OCL_ICD_VENDORS=vendors / "driver.so"), 0, "no OpenCL device")
+        self.assertNotIn("cannot be loaded", self.run_rpf("devices", OCL_ICD_VENDORS=vendors / "driver.so").stdout)
+
+    def test_drivers_that_do_not_load_are_named_with_the_reason(self):
+        vendors = self.folder / "vendors"
+        vendors.mkdir()
+        self.compile("void missing(void); void* clGetExtensionFunctionAddress(const char* name) { missing(); return 0; }", vendors / "broken.so", "-z", "now")
+        self.compile("void nothing(void) {}", vendors / "other.so")
+        for name, library, reason in (("gone", "gone.so", "No such file"), ("broken", "broken.so", "undefined symbol: missing"), ("other", "other.so", "no OpenCL driver")):
+            (vendors / f"{name}.icd").write_text(f"{vendors / library}\n")
+            for chosen in (vendors, vendors / f"{name}.icd", vendors / library):
+                with self.subTest(chosen):
+                    self.expect(self.run_rpf("devices", OCL_ICD_VENDORS=chosen), 0, "no OpenCL device", f"{library}", "cannot be loaded", reason)
+                    self.expect(self.filter("opencl", OCL_ICD_VENDORS=chosen), 5, "no OpenCL device", reason, "--backend=cpu")
+        for icd in Path("/etc/OpenCL/vendors").glob("pocl*.icd"):
+            shutil.copy(icd, vendors)
+            self.expect(self.run_rpf("devices", OCL_ICD_VENDORS=vendors), 0, "keeps the numeric contract", "gone.icd cannot be loaded", "No such file")
+            self.expect(self.filter("opencl", "--device", "Iris", OCL_ICD_VENDORS=vendors), 5, "no such device", "gone.icd cannot be loaded")
+            self.assertEqual(self.filter("opencl", "-q", OCL_ICD_VENDORS=vendors).stderr, "")
+
     def test_nothing_is_left_behind(self):
         environment = {**os.environ, "RPF_CACHE_DIR": str(self.folder / "cache"), "STARTS": str(self.starts), **{k: str(v) for k, v in self.driver("for (;;) pause()").items()}}
         for number in (signal.SIGTERM, signal.SIGKILL):
