@@ -20,4 +20,9 @@ std::string refusal_of(const std::string& text, const NumberRange& range, const 
   return fmt::format("{}'{}': {}", source, text.substr(0, 40), range.expected());
 }
 
+std::string decimal(const std::string& text) {
+  const std::size_t first = text.find_first_not_of("+0");
+  return first == std::string::npos ? "0" : text.substr(first);
+}
+
 }  // namespace rpf::cli

@@ -11,10 +11,19 @@ namespace rpf::cli {
 /// Why `text` is no such number, naming `variable` of the environment where it comes from there; empty where it is one.
 std::string refusal_of(const std::string& text, const NumberRange& range, const std::string& variable = {});
 
+/// A whole number without the leading zeros that CLI11 would take for octal: "10" of "0010".
+std::string decimal(const std::string& text);
+
 /// Lets the option take such numbers only, also from `variable`.
 inline CLI::Option* restrict_to(CLI::Option* option, const NumberRange& range, const std::string& variable = {}) {
   if (!variable.empty()) option->envname(variable);
-  return option->check([=](const std::string& text) { return refusal_of(text, range, variable); });
+  return option->transform(CLI::Validator(
+      [=](std::string& text) {
+        const std::string refusal = refusal_of(text, range, variable);
+        if (refusal.empty() && range.whole) text = decimal(text);
+        return refusal;
+      },
+      ""));
 }
 
 namespace ranges {

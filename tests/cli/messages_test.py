@@ -83,6 +83,16 @@ class MessagesTest(CommandCase):
                                  (["bench", "frames", "--rounds", "0"], ("--rounds", "1048576")), (["convert", self.samples, "-o", self.output, "--max-memory", "0"], ("--max-memory", "1073741824"))):
             self.expect_line(run(*arguments), *texts)
 
+    def test_leading_zeros_mean_nothing(self):
+        """A farm's frame numbers have them; they are not octal."""
+        for seed in ("10", "0010", "+10"):
+            self.expect(run("scene", "dof", "--size", "8x6", "--spp", "010", "--seed", seed, "-o", self.folder / f"{seed}.exr"), 0, "480 samples")
+            self.assertEqual((self.folder / f"{seed}.exr").read_bytes(), (self.folder / "10.exr").read_bytes())
+        self.expect(run(self.samples, "-o", self.output, "--threads", "010", "-v"), 0, ", 10 threads")
+        self.expect(run(self.samples, "-o", self.output, "-v", RPF_NUM_THREADS="08"), 0, ", 8 threads")
+        self.expect(run(self.samples, "-o", self.output, "--boxes", "011,007", "--redraws", "00"), 0)
+        self.expect(run(self.samples, "-o", self.output, "--seed", "08", "--boxes", "7"), 0)
+
     def test_an_option_without_its_value_is_a_usage_error(self):
         for option in ("--preset", "--method", "--threads"):
             self.expect_line(run(self.samples, "-o", self.output, option), option)

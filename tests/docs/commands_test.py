@@ -13,7 +13,7 @@ PREPARED = {  # what pages take for granted, and what makes it in the page's fol
     "render.samples.exr": "rpf scene dof --size 48x36 -o render.samples.exr",
     "reference.exr": "rpf scene dof --size 48x36 --reference 64 -o reference.exr",
     "picture.png": "rpf examples/dof-spheres.reference.exr -o picture.png --method gaussian --boxes 1",
-    "in.####.exr": "for n in $(seq -w 1 24); do rpf scene motion --size 16x9 --seed 1$n -o in.00$n.exr; done",
+    "in.####.exr": "for n in $(seq -w 1 24); do rpf scene motion --size 16x9 --seed $n -o in.00$n.exr; done",
 }
 
 
