@@ -8,6 +8,7 @@
 #include "cli/compare_report.h"
 #include "cli/environment.h"
 #include "cli/filter_options.h"
+#include "cli/measuring.h"
 #include "cli/numbers.h"
 #include "cli/print.h"
 #include "report/heat_map.h"
@@ -33,14 +34,9 @@ struct Options {
   bool limited = false;  ///< max_error was given
 };
 
-/// Errors name the two files.
 ImageError error_of(const Options& options, std::size_t number, const std::vector<Image>& images) {
-  try {
-    return compare_images(images[number], images.back());
-  } catch (const Error& e) {
-    throw Error(e.kind(), fmt::format("\"{}\", measured against \"{}\": {}", options.files[number],
-                                      options.files.back(), e.what()));
-  }
+  return measuring(options.files[number], options.files.back(),
+                   [&] { return compare_images(images[number], images.back()); });
 }
 
 Comparison compare(const Options& options, const std::vector<Image>& images) {

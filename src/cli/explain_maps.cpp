@@ -27,15 +27,6 @@ using Color = std::array<float, 3>;
 
 Image black(const Window& size) { return report::plain_picture(size.width, size.height, 0); }
 
-report::Legend magma_legend(const std::string& least, const std::string& most) {
-  report::Legend legend;
-  legend.continuous = true;
-  for (std::size_t i = 0; i < 256; i += 15) legend.entries.push_back({report::magma.at(i), ""});
-  legend.entries.front().text = least;
-  legend.entries.back().text = most;
-  return legend;
-}
-
 /// Three channels as red, green and blue.
 Image color_picture(const Image& layers, const std::string& first) { return part_of(layers, first, {"R", "G", "B"}); }
 
@@ -56,28 +47,6 @@ std::uint32_t group_color(const std::vector<std::string>& groups, std::size_t gr
   if (name == "time") return time_color;
   if (name == "light") return light_color;
   return name == "bsdf" ? bsdf_color : other_colors.at(group % other_colors.size());
-}
-
-/// The groups' colors, mixed by their shares.
-ExplainMap attribution_map(const Explanation& explanation) {
-  const Image& layers = explanation.layers;
-  const std::vector<std::string>& groups = explanation.groups;
-  ExplainMap map{"noise-attribution", "", "", black(layers.data_window), {}};
-  for (std::size_t g = 0; g < groups.size(); ++g) map.legend.entries.push_back({group_color(groups, g), groups[g]});
-  map.legend.entries.push_back({nothing_color, "no noise that these explain"});
-  const Color nothing = report::linear_light(nothing_color);
-  for (std::size_t p = 0; p < layers.data_window.pixel_count(); ++p) {
-    float* color = map.picture.pixel(p);
-    float sum = 0;
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      const float share = layers.pixel(p)[channel_of(layers, "share." + groups[g])];
-      const Color mixed = report::linear_light(group_color(groups, g));
-      for (std::size_t c = 0; c < 3; ++c) color[c] += share * mixed[c];
-      sum += share;
-    }
-    if (sum == 0) std::copy(nothing.begin(), nothing.end(), color);
-  }
-  return map;
 }
 
 /// Makes the maps of a chapter and hands them out.
@@ -200,9 +169,30 @@ std::vector<float> sorted_values(const Image& layers, std::size_t channel) {
   return values;
 }
 
+ExplainMap attribution_map(const Explanation& explanation) {
+  const Image& layers = explanation.layers;
+  const std::vector<std::string>& groups = explanation.groups;
+  ExplainMap map{"noise-attribution", "", "", black(layers.data_window), {}};
+  for (std::size_t g = 0; g < groups.size(); ++g) map.legend.entries.push_back({group_color(groups, g), groups[g]});
+  map.legend.entries.push_back({nothing_color, "no noise that these explain"});
+  const Color nothing = report::linear_light(nothing_color);
+  for (std::size_t p = 0; p < layers.data_window.pixel_count(); ++p) {
+    float* color = map.picture.pixel(p);
+    float sum = 0;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const float share = layers.pixel(p)[channel_of(layers, "share." + groups[g])];
+      const Color mixed = report::linear_light(group_color(groups, g));
+      for (std::size_t c = 0; c < 3; ++c) color[c] += share * mixed[c];
+      sum += share;
+    }
+    if (sum == 0) std::copy(nothing.begin(), nothing.end(), color);
+  }
+  return map;
+}
+
 ExplainMap scalar_map(const Image& values, std::size_t channel, const Scale& scale) {
   ExplainMap map{"", "", "", black(values.data_window),
-                 magma_legend(fmt::format("{:.3g}", scale.least), fmt::format("{:.3g}", scale.most))};
+                 report::magma_legend(fmt::format("{:.3g}", scale.least), fmt::format("{:.3g}", scale.most))};
   for (std::size_t p = 0; p < values.data_window.pixel_count(); ++p) {
     const double value = values.pixel(p)[channel];
     const double position =

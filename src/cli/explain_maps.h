@@ -22,6 +22,9 @@ struct ExplainMap {
 /// Hands out all of them, chapter by chapter; one at a time, for all together take more memory than the layers.
 void for_each_map(const Explanation& explanation, const std::function<void(const ExplainMap&)>& use);
 
+/// Which random parameters make the noise: the groups' colors, mixed by their shares.
+ExplainMap attribution_map(const Explanation& explanation);
+
 /// One channel in the colors of magma from `least` to `most`; logarithmic where `least` is above 0.
 struct Scale {
   double least = 0, most = 1;

@@ -7,6 +7,7 @@
 
 #include "cli/dropped.h"
 #include "cli/feature_files.h"
+#include "cli/frame_page.h"
 #include "cli/method_options.h"
 #include "cli/needs.h"
 #include "cli/print.h"
@@ -78,6 +79,7 @@ std::vector<PlannedOutput> planned_outputs(const FilterOptions& options, const F
   std::vector<PlannedOutput> outputs;
   if (!options.output.empty())
     outputs.push_back({options.output, OutputKind::image, {"R", "G", "B", "A"}, window, input.is_image()});
+  if (!options.report.empty()) outputs.push_back({options.report, OutputKind::page});
   if (options.aov.empty()) return outputs;
   std::vector<std::string> features;
   for (const std::string& slot : needed_layout(info, settings).slots)
@@ -131,12 +133,17 @@ ReadFrame read_frame(const OpenFrame& frame) {
 
 Result filter_and_write(const OpenFrame& frame, const Settings& settings, ReadFrame read) {
   const FilterOptions& options = frame.options;
+  const bench::CostClock clock;
   Result result = with_progress(options.quiet ? "never" : options.progress, [&](const Control& control) {
     return filter(std::move(read.samples), settings, control);
   });
   for (Image* image : {&result.image, &result.features})
     mark(*image, {read.input_hash, hash_of_settings(settings, options.map)});
   write_results(options, result);
+  if (!options.report.empty())
+    write_frame_page({options.input, options.output, "", options.report, frame.reading, settings,
+                      options.quiet ? "never" : options.progress,
+                      RunFigures{result.report, settings.method, clock.elapsed(), frame.need, peak_memory()}});
   return result;
 }
 

@@ -12,7 +12,7 @@ namespace rpf::cli {
 
 /// The options of `rpf INPUT -o OUTPUT` as they were written.
 struct FilterOptions {
-  std::string input, output, aov;
+  std::string input, output, aov, report;
   std::string method = "rpf", profile = "thesis", boxes, features, random, crop;
   double samples_factor = 0;  ///< 0: not given
   float sigma_color = 0;      ///< 0: not given

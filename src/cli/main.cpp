@@ -21,6 +21,7 @@ constexpr const char* footer = R"(Examples:
   rpf --method bilateral picture.png -o filtered.png
   rpf info render.samples.exr
   rpf compare before.exr filtered.exr reference.exr --side-by-side picture.png
+  rpf report render.samples.exr filtered.exr -o page.html
   rpf merge seed-1.samples.exr seed-2.samples.exr -o both.samples.exr
   rpf explain render.samples.exr -o explained --pixel 120,80
   rpf convert theirs.exr -o ours.samples.exr
@@ -40,12 +41,12 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   const Command filter_command = add_filter_command(app, {argv + 1, argv + argc});
   const std::pair<const char*, Command> subcommands[] = {
-      {"info", add_info_command(app)},       {"compare", add_compare_command(app)},
-      {"merge", add_merge_command(app)},     {"convert", add_convert_command(app)},
-      {"scene", add_scene_command(app)},     {"devices", add_devices_command(app)},
-      {"explain", add_explain_command(app)}, {"selftest", add_selftest_command(app)},
-      {"bench", add_bench_command(app)},     {"study", add_study_command(app)},
-      {"manual", add_manual_command(app)},
+      {"info", add_info_command(app)},         {"compare", add_compare_command(app)},
+      {"merge", add_merge_command(app)},       {"convert", add_convert_command(app)},
+      {"scene", add_scene_command(app)},       {"devices", add_devices_command(app)},
+      {"report", add_report_command(app)},     {"explain", add_explain_command(app)},
+      {"selftest", add_selftest_command(app)}, {"bench", add_bench_command(app)},
+      {"study", add_study_command(app)},       {"manual", add_manual_command(app)},
   };
   try {
     app.parse(argc, argv);

@@ -1,6 +1,7 @@
 #include "cli/needs.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include "cli/print.h"
 #include "rpf/error.h"
@@ -25,6 +26,12 @@ void check_need(const SampleFileInfo& info, const char* doing, std::uint64_t nee
         fmt::format("{}: {} needs {:.0f} MB, the limit is {:.0f} MB; raise --max-memory, lower --threads or leave "
                     "channels out with --features and --random",
                     info.path, doing, static_cast<double>(need) / megabyte, static_cast<double>(limit) / megabyte));
+}
+
+std::uint64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
 std::uint64_t predicted_memory(const SampleFileInfo& info, const Settings& settings) {

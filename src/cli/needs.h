@@ -18,6 +18,9 @@ FrameSize frame_size(const SampleFileInfo& info);
 /// "filtering".
 void check_need(const SampleFileInfo& info, const char* doing, std::uint64_t need, std::uint64_t limit);
 
+/// Bytes that this process has held at most so far.
+std::uint64_t peak_memory();
+
 /// Peak bytes of reading and filtering it.
 std::uint64_t predicted_memory(const SampleFileInfo& info, const Settings& settings);
 

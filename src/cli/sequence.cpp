@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <future>
 #include <optional>
 
@@ -64,6 +65,7 @@ std::vector<Task> tasks_of(const FilterOptions& filter, const SequenceOptions& o
     task.options.input = input.path_of(number);
     task.options.output = frame_path("-o", filter.output, number);
     task.options.aov = frame_path("--aov", filter.aov, number);
+    task.options.report = frame_path("--report", filter.report, number);
     tasks.push_back(task);
   }
   return tasks;
@@ -73,7 +75,9 @@ bool was_made(const OpenFrame& frame) {
   const FilterOptions& options = frame.options;
   if (options.output.empty()) return false;
   const Origin origin{hash_of_file(options.input), hash_of_settings(frame.settings, options.map)};
-  return is_made(options.output, origin) && (options.aov.empty() || is_made(options.aov, origin));
+  std::error_code unknown;
+  return is_made(options.output, origin) && (options.aov.empty() || is_made(options.aov, origin)) &&
+         (options.report.empty() || std::filesystem::is_regular_file(options.report, unknown));
 }
 
 int exit_code_of(const Error& error) {

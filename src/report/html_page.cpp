@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <regex>
 #include <string_view>
 
-#include "report/palette.h"
-#include "report/style.h"
+#include "report/html_text.h"
+#include "report/page_files.h"
 #include "report/text_file.h"
+#include "report/viewer.h"
 #include "rpf/error.h"
 
 namespace rpf::report {
@@ -41,23 +41,6 @@ std::string data_address(const std::string& file) {
   return fmt::format("data:image/{};base64,{}", png ? "png" : "jpeg", base64(bytes));
 }
 
-std::string legend_html(const Legend& legend) {
-  if (legend.entries.empty()) return "";
-  std::string html = "<div class=\"legend\">";
-  if (legend.continuous) {
-    std::string colors;
-    for (const Legend::Entry& entry : legend.entries) colors += ", " + html_color(entry.color);
-    html += fmt::format(
-        "<span>{}</span><i class=\"bar\" style=\"background: linear-gradient(90deg{})\"></i><span>{}</span>",
-        escaped(legend.entries.front().text), colors, escaped(legend.entries.back().text));
-  } else {
-    for (const Legend::Entry& entry : legend.entries)
-      html +=
-          fmt::format("<span><i style=\"background: {}\"></i>{}</span>", html_color(entry.color), escaped(entry.text));
-  }
-  return html + "</div>";
-}
-
 /// An SVG file as a part of a page: names get a prefix, since a page may have several plots.
 std::string as_part(const std::string& svg, const std::string& prefix) {
   const auto begin = svg.find("<svg");
@@ -69,43 +52,6 @@ std::string as_part(const std::string& svg, const std::string& prefix) {
 }
 
 }  // namespace
-
-std::string escaped(const std::string& text) {
-  std::string html;
-  for (const char c : text) switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      case '\'':
-        html += "&#39;";
-        break;
-      default:
-        html += c;
-    }
-  return html;
-}
-
-std::string base64(const std::string& bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (unsigned k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63U];
-  }
-  return text;
-}
 
 HtmlPage::HtmlPage(const std::string& title) : title_(title) {}
 
@@ -133,16 +79,22 @@ void HtmlPage::plot(const std::string& svg, const std::string& caption) {
                        as_part(svg, fmt::format("plot{}-", ++plots_)), escaped(caption));
 }
 
+void HtmlPage::viewer(const Viewer& viewer) {
+  body_ += viewer_html(viewer);
+  script_ = page_files().at("viewer.js");
+}
+
 void HtmlPage::link(const std::string& target, const std::string& text) {
   body_ += fmt::format("<p><a href=\"{}\">{}</a></p>\n", escaped(target), escaped(text));
 }
 
 std::string HtmlPage::html() const {
+  const std::string script = script_.empty() ? "" : "<script>\n" + script_ + "</script>\n";
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n{2}</body>\n</html>\n",
-      escaped(title_), style, body_);
+      "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n{2}{3}</body>\n</html>\n",
+      escaped(title_), page_files().at("page.css"), body_, script);
 }
 
 void HtmlPage::write(const std::string& path) const { write_text(path, html()); }

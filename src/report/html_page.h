@@ -1,22 +1,15 @@
-// A page of HTML that carries everything it shows: no file, no network, no script.
+// A page of HTML that carries everything it shows: no file, no network, and no script but the viewer's.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "report/legend.h"
+
 namespace rpf::report {
 
-/// What the colors of a picture mean.
-struct Legend {
-  struct Entry {
-    std::uint32_t color = 0;  ///< 0xRRGGBB in sRGB
-    std::string text;
-  };
-  std::vector<Entry> entries;
-  bool continuous = false;  ///< a bar of all colors, with the texts of the first and the last
-};
+struct Viewer;  // report/viewer.h
 
 /// A picture of a page.
 struct Picture {
@@ -47,6 +40,8 @@ class HtmlPage {
   void pictures(const std::vector<Picture>& pictures, int least_width = 260);
   /// A plot of svg_of() in plot.h.
   void plot(const std::string& svg, const std::string& caption);
+  /// Pictures to be compared pixel by pixel; a page has one viewer at most.
+  void viewer(const Viewer& viewer);
   /// A link to another page beside this one.
   void link(const std::string& target, const std::string& text);
 
@@ -55,14 +50,8 @@ class HtmlPage {
   void write(const std::string& path) const;
 
  private:
-  std::string title_, body_;
+  std::string title_, body_, script_;
   int plots_ = 0;
 };
-
-/// The text with &, <, > and quotes as HTML writes them.
-std::string escaped(const std::string& text);
-
-/// Base64 of RFC 4648, section 4.
-std::string base64(const std::string& bytes);
 
 }  // namespace rpf::report

@@ -8,6 +8,7 @@
 
 #include "deep_files.h"
 #include "report/html_page.h"
+#include "report/html_text.h"
 #include "report/plot.h"
 #include "report/text_file.h"
 #include "rpf/error.h"

@@ -1,0 +1,130 @@
+"""rpf report and rpf --report as a user runs them, and what is in their page. Usage: report_test.py RPF PROJECT"""
+import re
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+
+from command_case import RPF, CommandCase
+from report_page import ReportPage, exr_values
+
+SIZE = "40x24"
+
+
+def run(*arguments):
+    return subprocess.run([RPF, *map(str, arguments)], capture_output=True, text=True)
+
+
+class ReportTest(CommandCase):
+    def setUp(self):
+        super().setUp()
+        self.samples, self.output, self.reference, self.page = (
+            self.folder / name for name in ("in <1>.samples.exr", "out.exr", "reference.exr", "page.html"))
+        self.expect(run("scene", "combined", "--size", SIZE, "-o", self.samples, "-q"), 0)
+        self.expect(run(self.samples, "-o", self.output, "--preset", "fast", "-q"), 0)
+
+    def report(self, *files, page=None):
+        return run("report", *(files or (self.samples, self.output)), "-o", page or self.page)
+
+    def render_reference(self):
+        self.expect(run("scene", "combined", "--size", SIZE, "--reference", "16", "-o", self.reference, "-q"), 0)
+
+    def test_the_page_is_whole_and_needs_nothing_else(self):
+        self.expect(self.report(), 0, "page.html", "attributing the noise")
+        html = self.page.read_text()
+        self.assertTrue(html.startswith("<!DOCTYPE html>") and html.endswith("</html>\n"))
+        self.assertIn("<title>in &lt;1&gt;.samples.exr, before and after</title>", html)
+        self.assertFalse(re.findall(r"https?:|<link|<img|@import|\bsrc=|\bhref=|url\(", html))
+        for chapter in ("Errors", "Where the noise comes from", "Settings", "The run", "The data"):
+            self.assertIn(f"<h2>{chapter}</h2>", html)
+        for text in ("modelHash", "<td class=\"text\">fast</td>", "--report page.html", "lens.U", "4</td>"):
+            self.assertIn(text, html)
+
+    def test_values_are_those_of_the_files_to_the_last_bit(self):
+        self.render_reference()
+        mean = self.folder / "mean.exr"
+        self.expect(run(self.samples, "-o", mean, "--boxes", "none", "-q"), 0)
+        self.expect(self.report(self.samples, self.output, self.reference), 0)
+        page = ReportPage(self.page)
+        for name, file in (("plain mean", mean), ("filtered", self.output), ("reference", self.reference)):
+            np.testing.assert_array_equal(page.values(name), exr_values(file), name)
+
+    def test_errors_are_those_of_compare(self):
+        self.render_reference()
+        self.expect(self.report(self.samples, self.output, self.reference), 0)
+        page = ReportPage(self.page)
+        a, b = (page.values(name).astype(float) for name in ("filtered", "reference"))
+        errors = ((a - b) ** 2 / (b ** 2 + 0.01)).mean(axis=2, keepdims=True)
+        np.testing.assert_allclose(page.values("error after"), errors, rtol=0.003)  # eight bits of mantissa
+        self.assertIn(f"<td>{errors.mean():.4g}</td>", page.html)
+
+    def test_noise_is_attributed_as_explain_does(self):
+        explained = self.folder / "explained"
+        self.expect(run("explain", self.samples, "-o", explained, "-q"), 0)
+        self.expect(self.report(), 0)
+        page = ReportPage(self.page)
+        channels = subprocess.run(["oiiotool", str(explained / "explain.exr"), "--ch", "share.lens,share.light,share.time", "-o",
+                                   str(self.folder / "shares.exr")], check=False)
+        self.assertEqual(channels.returncode, 0)
+        layer = page.frame["layers"][page.names.index("where the noise comes from")]
+        self.assertEqual(layer["channels"][3:], ["lens", "light", "time"])
+        shares = page.values("where the noise comes from")[:, :, 3:]
+        np.testing.assert_allclose(shares, exr_values(self.folder / "shares.exr"), rtol=0.002)
+        self.assertIn("others, or several together", page.html)
+
+    def test_says_where_there_is_nothing_to_tell(self):
+        bare = self.folder / "bare.samples.exr"
+        self.expect(run("convert", self.samples, "-o", bare, *(f"--map=random.{slot}=" for slot in (
+            "lens.U", "lens.V", "light.U", "light.V", "time"))), 0)
+        png = self.folder / "out.png"
+        self.expect(run(bare, "-o", png, "--preset", "fast", "-q"), 0)
+        self.expect(self.report(bare, png), 0)
+        html = self.page.read_text()
+        for text in ("no random numbers", "Without a reference", "does not say how it was made"):
+            self.assertIn(text, html)
+        self.assertNotIn("where the noise comes from", ReportPage(self.page).names)
+
+    def test_the_run_that_filters_writes_the_page_with_its_times(self):
+        self.expect(run(self.samples, "-o", self.output, "--report", self.page, "--profile", "thesis", "--boxes", "7,5"), 0)
+        html = self.page.read_text()
+        for text in (">acceptance<", "memory, the process at most", "seconds of filtering", "<th>pass 2</th>"):
+            self.assertIn(text, html)
+        self.assertRegex(html, r">box width</td><td>7</td><td>5</td>")
+        np.testing.assert_array_equal(ReportPage(self.page).values("filtered"), exr_values(self.output))
+
+    def test_a_crop_is_compared_with_its_own_place(self):
+        self.expect(run(self.samples, "-o", self.output, "--report", self.page, "--crop", "10x6+7+5", "--preset", "fast", "-q"), 0)
+        whole = self.folder / "mean.exr"
+        self.expect(run(self.samples, "-o", whole, "--boxes", "none", "-q"), 0)
+        page = ReportPage(self.page)
+        self.assertEqual([page.frame[key] for key in ("x", "y", "width", "height")], [7, 5, 10, 6])
+        np.testing.assert_array_equal(page.values("plain mean"), exr_values(whole)[5:11, 7:17])
+
+    def test_large_frames_have_four_digits(self):
+        large = self.folder / "large.samples.exr"
+        self.expect(run("scene", "dof", "--size", "640x411", "--spp", 1, "-o", large, "-q"), 0)
+        self.expect(run(large, "-o", self.output, "--method", "gaussian", "--boxes", 1, "-q"), 0)
+        self.expect(self.report(large, self.output), 0)
+        page = ReportPage(self.page)
+        values = exr_values(self.output)
+        np.testing.assert_allclose(page.values("filtered"), values, rtol=2.0 ** -13)
+        self.assertFalse((page.values("filtered") == values).all())
+        self.assertIn("with four digits", page.html)
+
+    def test_errors_name_the_file_and_leave_nothing(self):
+        other = self.folder / "other.exr"
+        self.expect(run("scene", "dof", "--size", "44x24", "--reference", 2, "-o", other, "-q"), 0)
+        for files, code, text in (((self.samples,), 2, "rpf report"), ((self.samples, other), 3, "other.exr"),
+                                  ((self.samples, self.output, other), 3, "other.exr"),
+                                  ((self.samples, self.folder / "none.exr"), 3, "none.exr")):
+            with self.subTest(files):
+                self.expect(self.report(*files), code, text)
+                self.assertFalse(self.page.exists())
+        self.expect(self.report(page=self.folder / "none" / "page.html"), 4, "none")
+        self.expect(self.report(page=self.output), 2)
+        self.expect(run(self.samples, "-o", self.output, "--report", self.output), 2)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
