@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 #include <link.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
 #include <set>
 #include <system_error>
 
-#include "opencl/cache_seal.h"
+#include "opencl/cache_file.h"
 
 namespace rpf {
 namespace {
@@ -60,13 +59,9 @@ void index_programs(const fs::path& folder, const std::string& source, const std
   std::set<fs::path> all(known.begin(), known.end());
   all.insert(programs.begin(), programs.end());
   if (all.size() == known.size()) return;
-  const fs::path file = index_file(folder, source), temporary = file.string() + fmt::format("-{}", getpid());
-  std::error_code failed;
-  fs::create_directories(file.parent_path(), failed);
-  std::ofstream lines(temporary);
-  for (const fs::path& program : all) lines << program.lexically_relative(folder).string() << '\n';
-  lines.close();
-  fs::rename(temporary, file, failed);
+  std::string lines;
+  for (const fs::path& program : all) lines += program.lexically_relative(folder).string() + "\n";
+  replace_file(index_file(folder, source), lines);
 }
 
 std::vector<fs::path> loaded_programs(const fs::path& folder) {

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <thread>
 
-#include "opencl/cache_seal.h"
+#include "opencl/cache_file.h"
 #include "opencl/kernel_cache.h"
 
 namespace rpf {

@@ -1,15 +1,16 @@
 #include "opencl/cache_seal.h"
 
 #include <elf.h>
-#include <unistd.h>
+#include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <map>
 #include <string>
 #include <system_error>
 #include <vector>
+
+#include "opencl/cache_file.h"
 
 namespace rpf {
 namespace {
@@ -19,16 +20,6 @@ namespace fs = std::filesystem;
 // PoCL keeps a program in <folder>/<2 letters>/<rest of its hash>: program.bc and one .so for each kernel. It makes
 // each file under a temporary name and renames it.
 constexpr const char* seal_name = "rpf-seal";
-
-std::string content_of(const fs::path& path) {
-  std::error_code failed;
-  const std::uintmax_t size = fs::file_size(path, failed);
-  std::string content(failed ? 0 : size, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(content.data(), static_cast<std::streamsize>(content.size()));
-  content.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
-  return content;
-}
 
 bool is_compiled(const fs::path& path) { return path.extension() == ".so" || path.extension() == ".bc"; }
 
@@ -80,12 +71,6 @@ bool is_sealed(const fs::path& program, const std::vector<fs::path>& files) {
 
 }  // namespace
 
-std::uint64_t checksum(const std::string& content) {
-  std::uint64_t hash = 14695981039346656037U;
-  for (const char c : content) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
-  return hash;
-}
-
 std::vector<fs::path> all_programs(const fs::path& folder) {
   std::vector<fs::path> result;
   std::error_code failed;
@@ -101,13 +86,10 @@ void seal(const std::vector<fs::path>& programs) {
   for (const fs::path& program : programs) {
     const std::vector<fs::path> files = compiled_files(program);
     if (is_sealed(program, files)) continue;
-    const fs::path temporary = program / (std::string(seal_name) + "-" + std::to_string(getpid()));
-    std::ofstream record(temporary);
+    std::string record;
     for (const fs::path& path : files)
-      record << checksum(content_of(path)) << ' ' << path.lexically_relative(program).string() << '\n';
-    record.close();
-    std::error_code failed;
-    fs::rename(temporary, program / seal_name, failed);
+      record += fmt::format("{} {}\n", checksum(content_of(path)), path.lexically_relative(program).string());
+    replace_file(program / seal_name, record);
   }
 }
 

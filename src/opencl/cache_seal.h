@@ -1,15 +1,10 @@
 // Damaged files in PoCL's kernel cache: found and removed, for PoCL loads them without a look and aborts the process.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace rpf {
-
-/// FNV-1a, 64 bits: this is about accidents, not about attacks.
-std::uint64_t checksum(const std::string& content);
 
 /// The folders of all programs in a cache folder.
 std::vector<std::filesystem::path> all_programs(const std::filesystem::path& folder);

@@ -16,6 +16,7 @@
 
 #include "opencl/cache_index.h"
 #include "opencl/cache_seal.h"
+#include "opencl/cache_size.h"
 #include "opencl/environment.h"
 #include "rpf/error.h"
 
@@ -75,6 +76,12 @@ fs::path& our_folder() {
   return folder;
 }
 
+/// A folder of the same cache.
+fs::path beside_kernels(const char* name) {
+  const fs::path kernels = our_folder().empty() ? wanted_folder() : our_folder();
+  return kernels.empty() ? fs::path() : kernels.parent_path() / name;
+}
+
 void prepare() {
   if (!environment("POCL_CACHE_DIR").empty()) return;
   fs::path folder = wanted_folder();
@@ -112,15 +119,15 @@ std::vector<std::string> environment_with_our_cache() {
   return result;
 }
 
-fs::path verdict_folder() {
-  const fs::path kernels = our_folder().empty() ? wanted_folder() : our_folder();
-  return kernels.empty() ? fs::path() : kernels.parent_path() / "drivers";
-}
+fs::path verdict_folder() { return beside_kernels("drivers"); }
+
+fs::path binary_folder() { return beside_kernels("programs"); }
 
 void check_kernels(const std::string& source) {
   if (our_folder().empty()) return;
   const std::vector<fs::path> programs = indexed_programs(our_folder(), source);
   remove_damaged(programs.empty() ? all_programs(our_folder()) : programs);
+  for (const fs::path& program : programs) mark_used(program);
 }
 
 void keep_compiled_kernels(const std::string& source) {
@@ -131,6 +138,19 @@ void keep_compiled_kernels(const std::string& source) {
     if (source_of.emplace(program, source).first->second == source) programs.push_back(program);
   seal(programs);
   index_programs(our_folder(), source, programs);
+}
+
+bool has_compiled_kernels(const std::string& source) {
+  return our_folder().empty() || !indexed_programs(our_folder(), source).empty();
+}
+
+void prune_programs() {
+  constexpr std::uintmax_t limit = std::uintmax_t{512} << 20U;  // hundreds of programs
+  std::vector<fs::path> programs = our_folder().empty() ? std::vector<fs::path>() : all_programs(our_folder());
+  std::error_code failed;
+  for (fs::directory_iterator entry(binary_folder(), failed), end; !failed && entry != end; entry.increment(failed))
+    programs.push_back(entry->path());
+  prune(programs, limit);
 }
 
 }  // namespace rpf

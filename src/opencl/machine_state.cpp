@@ -47,25 +47,11 @@ std::string first_found(const std::string& name, const std::vector<std::string>&
   return name + " is nowhere\n";
 }
 
-std::string processor() {
-#ifdef __x86_64__
-  std::string text;
-  for (const unsigned leaf : {1U, 7U, 0x80000002U, 0x80000003U, 0x80000004U}) {
-    unsigned a = 0, b = 0, c = 0, d = 0;
-    if (__get_cpuid_count(leaf, 0, &a, &b, &c, &d) == 0) continue;
-    text += fmt::format("{:x} {:x} {:x} {:x}\n", a, leaf == 1 ? 0 : b, c, d);  // b of leaf 1 says which core this is
-  }
-  return text;
-#else
-  return {};
-#endif
-}
-
 std::string system_state() {
   utsname name{};
   ::uname(&name);
   return fmt::format("rpf {}\n{} {} {}\nuser {}\n{}", version(), name.nodename, name.release, name.machine, ::geteuid(),
-                     processor());
+                     processor_state());
 }
 
 /// Of the loader, OpenCL's and the drivers'.
@@ -121,6 +107,20 @@ std::string mounts() {
 }
 
 }  // namespace
+
+std::string processor_state() {
+#ifdef __x86_64__
+  std::string text;
+  for (const unsigned leaf : {1U, 7U, 0x80000002U, 0x80000003U, 0x80000004U}) {
+    unsigned a = 0, b = 0, c = 0, d = 0;
+    if (__get_cpuid_count(leaf, 0, &a, &b, &c, &d) == 0) continue;
+    text += fmt::format("{:x} {:x} {:x} {:x}\n", a, leaf == 1 ? 0 : b, c, d);  // b of leaf 1 says which core this is
+  }
+  return text;
+#else
+  return {};
+#endif
+}
 
 std::string machine_state() {
   return system_state() + environment_state() + driver_state() + first_found("ld", split(environment("PATH"))) +

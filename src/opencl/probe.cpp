@@ -5,9 +5,9 @@
 #include <mutex>
 #include <set>
 
-#include "opencl/cache_index.h"
+#include "opencl/binaries.h"
+#include "opencl/cache_file.h"
 #include "opencl/cache_lock.h"
-#include "opencl/cache_seal.h"
 #include "opencl/kernel_cache.h"
 #include "opencl/machine_state.h"
 #include "opencl/verdicts.h"
@@ -112,9 +112,9 @@ void require_compiled(const KernelBuild& build, const Check& check) {
   check_kernels(build.source);
   const std::string name = name_of(fmt::format("build {:016x}", checksum(build.source)));
   const Verdicts verdicts(verdict_folder());
-  const bool is_gone = build.in_our_cache && !kernel_cache_folder().empty() &&
-                       indexed_programs(kernel_cache_folder(), build.source).empty();
-  if (const auto verdict = verdicts.find(name); is_gone && verdict && verdict->works) verdicts.forget(name);
+  const bool is_kept =
+      build.is_kept_by_driver ? has_compiled_kernels(build.source) : Binaries(binary_folder()).has(build.source);
+  if (const auto verdict = verdicts.find(name); !is_kept && verdict && verdict->works) verdicts.forget(name);
   ask_and_keep({"build", std::to_string(build.device), build.file, build.definitions}, build.more, name, to_compile,
                check);
 }

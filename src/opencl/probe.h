@@ -23,7 +23,7 @@ struct KernelBuild {
   int device = 0;
   std::string file, definitions, more;  ///< as Session::program() takes them
   std::string source;
-  bool in_our_cache = false;  ///< the driver is PoCL, which keeps what the child compiles where check_kernels() looks
+  bool is_kept_by_driver = false;  ///< PoCL: in kernel_cache.h; else in binaries.h
 };
 
 /// Compiles a program and runs each of its kernels with nothing to do, in a child, where that is not known to work.

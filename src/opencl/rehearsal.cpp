@@ -3,7 +3,11 @@
 #include <array>
 #include <iostream>
 #include <iterator>
+#include <sstream>
+#include <vector>
 
+#include "opencl/kernel_cache.h"
+#include "opencl/kernel_source.h"
 #include "opencl/probe.h"
 #include "opencl/self_test.h"
 
@@ -21,13 +25,28 @@ void set_to_zeros(cl::Kernel& kernel, cl_uint number) {
   throw Error(ErrorKind::internal, "a kernel has an argument of more than 1024 bytes; hand it over in a buffer");
 }
 
-void set_arguments(cl::Kernel& kernel, const cl::Buffer& buffer) {
-  const auto count = kernel.getInfo<CL_KERNEL_NUM_ARGS>();
-  for (cl_uint number = 0; number < count; ++number) {
-    if (kernel.getArgInfo<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(number) == CL_KERNEL_ARG_ADDRESS_PRIVATE)
-      set_to_zeros(kernel, number);
-    else
+/// Whether a kernel's parameters are buffers, by its text: of a program that was loaded the driver need not know it.
+std::vector<bool> buffers_among_parameters(const std::string& kernel, const std::string& text) {
+  const std::size_t begin = text.find("__kernel void " + kernel + "(");
+  if (begin == std::string::npos) return {};
+  std::istringstream parameters(text.substr(begin, text.find(')', begin) - begin));
+  std::vector<bool> result;
+  for (std::string parameter; std::getline(parameters, parameter, ',');)
+    result.push_back(parameter.find("__global ") != std::string::npos);
+  return result;
+}
+
+void set_arguments(cl::Kernel& kernel, const std::string& text, const cl::Buffer& buffer) {
+  const auto name = kernel.getInfo<CL_KERNEL_FUNCTION_NAME>();
+  const std::vector<bool> is_buffer = buffers_among_parameters(name, text);
+  if (is_buffer.size() != kernel.getInfo<CL_KERNEL_NUM_ARGS>())
+    throw Error(ErrorKind::internal,
+                "kernel " + name + ": its text begins with \"__kernel void\", then parameters without brackets");
+  for (cl_uint number = 0; number < is_buffer.size(); ++number) {
+    if (is_buffer[number])
       kernel.setArg(number, buffer);
+    else
+      set_to_zeros(kernel, number);
   }
 }
 
@@ -55,9 +74,10 @@ void rehearse(Session& session, const std::string& file, const std::string& defi
     program.createKernels(&kernels);
     const cl::Buffer zeros = session.copy(std::vector<char>(buffer_bytes, 0));
     for (cl::Kernel& kernel : kernels) {
-      set_arguments(kernel, zeros);
+      set_arguments(kernel, kernel_source(file) + more, zeros);
       session.launch(kernel, 1, 1);
     }
+    prune_programs();
   });
 }
 

@@ -10,6 +10,7 @@
 #include "opencl/drivers.h"
 #include "opencl/kernel_cache.h"
 #include "opencl/kernel_source.h"
+#include "opencl/machine_state.h"
 #include "opencl/probe.h"
 
 namespace rpf {
@@ -62,12 +63,21 @@ bool has_new_avx512(const cl::Device& device) {
 #endif
 }
 
-/// No option that trades accuracy; division and square root correctly rounded where that must be asked for; arguments'
-/// kinds for rehearse(). No warnings: the compiler counts them on standard error, past every -q, and the build has
-/// looked at them (tests, kernels.*).
+/// Empty where the driver has none for us.
+Binaries::Binary binary_of(const cl::Program& program) {
+  try {
+    return program.getInfo<CL_PROGRAM_BINARIES>().at(0);
+  } catch (const cl::Error&) {
+    return {};
+  }
+}
+
+/// No option that trades accuracy; division and square root correctly rounded where that must be asked for. No
+/// warnings: the compiler counts them on standard error, past every -q, and the build has looked at them (tests,
+/// kernels.*).
 std::string build_options(const cl::Device& device, const std::string& definitions) {
   const bool asks = (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
-  return "-cl-std=CL1.2 -cl-kernel-arg-info -w " + std::string(asks ? "-cl-fp32-correctly-rounded-divide-sqrt " : "") +
+  return "-cl-std=CL1.2 -w " + std::string(asks ? "-cl-fp32-correctly-rounded-divide-sqrt " : "") +
          (has_new_avx512(device) ? "-DRPF_AVX512 " : "") + definitions;
 }
 
@@ -140,8 +150,8 @@ Session::Session(cl::Device device, int number)
     : device_(std::move(device)), number_(number), context_(device_), queue_(context_, device_) {}
 
 std::string Session::source_of(const std::string& file, const std::string& definitions, const std::string& more) const {
-  return fmt::format("{}\n{}\n{}\n{}{}", device_.getInfo<CL_DEVICE_NAME>(), device_.getInfo<CL_DRIVER_VERSION>(),
-                     build_options(device_, definitions), kernel_source(file), more);
+  return fmt::format("{}\n{}\n{}{}\n{}{}", device_.getInfo<CL_DEVICE_NAME>(), device_.getInfo<CL_DRIVER_VERSION>(),
+                     processor_state(), build_options(device_, definitions), kernel_source(file), more);
 }
 
 void Session::rehearse(const std::string& file, const std::string& definitions, const std::string& more,
@@ -161,6 +171,13 @@ const cl::Program& Session::compile(const std::string& file, const std::string& 
   check_address_space_to_compile();
   const std::string source = source_of(file, definitions, more);
   check_kernels(source);
+  const cl::Program program =
+      is_pocl(device_) ? build(file, definitions, more) : build_kept(source, file, definitions, more);
+  sources_[program()] = source;
+  return programs_.emplace(key, program).first->second;
+}
+
+cl::Program Session::build(const std::string& file, const std::string& definitions, const std::string& more) {
   cl::Program program(context_, kernel_source(file) + more);
   try {
     program.build(device_, build_options(device_, definitions).c_str());
@@ -171,8 +188,32 @@ const cl::Program& Session::compile(const std::string& file, const std::string& 
                             file, device_.getInfo<CL_DEVICE_NAME>(), e.err(), definitions,
                             program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_)));
   }
-  sources_[program()] = source;
-  return programs_.emplace(key, program).first->second;
+  return program;
+}
+
+cl::Program Session::build_kept(const std::string& source, const std::string& file, const std::string& definitions,
+                                const std::string& more) {
+  const Binaries binaries(binary_folder());
+  const Binaries::Binary known = binaries.find(source);
+  if (cl::Program program = load(known); program() != nullptr) return program;
+  cl::Program compiled = build(file, definitions, more);
+  if (known.empty() && binaries.has(source)) return compiled;  // it was tried
+  binaries.keep(source, binary_of(compiled));
+  if (cl::Program program = load(binaries.find(source)); program() != nullptr)
+    return program;  // what is used now is what later starts use
+  binaries.keep(source, {});
+  return compiled;
+}
+
+cl::Program Session::load(const Binaries::Binary& binary) {
+  if (binary.empty()) return {};
+  try {
+    cl::Program program(context_, {device_}, {binary});
+    program.build(device_);
+    return program;
+  } catch (const cl::Error&) {
+    return {};
+  }
 }
 
 void Session::launch(const cl::Kernel& kernel, std::size_t items, std::size_t group) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "opencl/binaries.h"
 #include "opencl/canaries.h"
 #include "opencl/child.h"
 #include "opencl/opencl.h"
@@ -82,6 +83,12 @@ class Session {
   cl::Buffer copy_of(const void* data, std::size_t bytes);
   /// All that decides what is compiled.
   std::string source_of(const std::string& file, const std::string& definitions, const std::string& more) const;
+  cl::Program build(const std::string& file, const std::string& definitions, const std::string& more);
+  /// The same, of the binary that the driver has made of this source, here or earlier.
+  cl::Program build_kept(const std::string& source, const std::string& file, const std::string& definitions,
+                         const std::string& more);
+  /// A program without a handle where the driver does not take the binary.
+  cl::Program load(const Binaries::Binary& binary);
 
   cl::Device device_;
   int number_;

@@ -1,14 +1,11 @@
 #include "opencl/verdicts.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
-#include "opencl/cache_seal.h"
+#include "opencl/cache_file.h"
 
 namespace rpf {
 namespace {
@@ -34,8 +31,7 @@ fs::path Verdicts::file_of(const std::string& question) const {
 std::optional<Verdict> Verdicts::find(const std::string& question) const {
   if (folder_.empty()) return std::nullopt;
   const fs::path path = file_of(question);
-  std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = content_of(path);
   const bool good = text == works;
   if (!good && text.compare(0, fails.size(), fails) != 0) return std::nullopt;  // no file, or a damaged one
   const auto age = age_of(path);
@@ -45,15 +41,8 @@ std::optional<Verdict> Verdicts::find(const std::string& question) const {
 
 void Verdicts::keep(const std::string& question, const Verdict& verdict) const {
   if (folder_.empty()) return;
-  std::error_code failed;
-  fs::create_directories(folder_, failed);
   remove_old();
-  const fs::path path = file_of(question), temporary = path.string() + fmt::format("-{}", ::getpid());
-  std::ofstream file(temporary);
-  file << (verdict.works ? works : fails + verdict.reason);
-  file.close();
-  if (file.good()) return fs::rename(temporary, path, failed);
-  fs::remove(temporary, failed);
+  replace_file(file_of(question), verdict.works ? works : fails + verdict.reason);
 }
 
 void Verdicts::forget(const std::string& question) const {

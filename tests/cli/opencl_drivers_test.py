@@ -40,6 +40,35 @@ exec "{}" "$@"
 """
 
 
+# Between us and PoCL, which it makes a driver that is not PoCL; a line in $STARTS for each program that is compiled.
+STRANGER = """
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+int clGetDeviceInfo(void* device, unsigned name, size_t size, void* value, size_t* needed) {
+  int (*next)(void*, unsigned, size_t, void*, size_t*) = dlsym(RTLD_NEXT, "clGetDeviceInfo");
+  int result = next(device, name, size, value, needed);
+  if (name == 0x102F && value && strstr(value, "PoCL")) memcpy(strstr(value, "PoCL"), "none", 4);
+  return result;
+}
+void* clCreateProgramWithSource(void* context, unsigned count, const char** texts, const size_t* lengths, int* error) {
+  void* (*next)(void*, unsigned, const char**, const size_t*, int*) = dlsym(RTLD_NEXT, "clCreateProgramWithSource");
+  FILE* starts = fopen(getenv("STARTS"), "a");
+  fprintf(starts, "compiled\\n");
+  fclose(starts);
+  return next(context, count, texts, lengths, error);
+}
+void* clCreateProgramWithBinary(void* context, unsigned count, void* devices, const size_t* sizes, const unsigned char** binaries, int* states, int* error) {
+  void* (*next)(void*, unsigned, void*, const size_t*, const unsigned char**, int*, int*) = dlsym(RTLD_NEXT, "clCreateProgramWithBinary");
+  if (!getenv("REFUSES")) return next(context, count, devices, sizes, binaries, states, error);
+  if (error) *error = -42;
+  return 0;
+}
+"""
+
+
 class Drivers(unittest.TestCase):
     def setUp(self):
         self.folder = Path(tempfile.mkdtemp(prefix="rpf drivers "))
@@ -260,6 +289,57 @@ class Drivers(unittest.TestCase):
         rpf = self.asking()["rpf"]
         (rpf.parent / "rpf_probe").write_text("#!/nonexistent\n")
         self.expect_cpu("rpf_probe", rpf=rpf)
+
+    # ---- compiled programs of drivers that have no cache of their own
+
+    def stranger(self):
+        if SANITIZED:
+            self.skipTest("skipped: the sanitizer's library must come first")
+        place = Path(tempfile.mkdtemp(prefix="rpf-stranger-"))  # a blank ends a name in LD_PRELOAD
+        self.addCleanup(shutil.rmtree, place)
+        self.compile(STRANGER, place / "stranger.so")
+        return {"LD_PRELOAD": place / "stranger.so"}
+
+    def expect_compiled(self, count, **environment):
+        self.starts.write_text("")
+        result = self.filter("opencl", **environment)
+        self.expect(result, 0)
+        self.expect_same_bits()
+        self.assertEqual(self.starts.read_text().count("compiled"), count)
+        return result.stderr
+
+    def kept(self):
+        files = sorted((self.folder / "cache" / "programs").iterdir())
+        self.assertEqual(len(files), 2)  # the self-test, and what filters
+        return files
+
+    def test_compiled_programs_are_kept_for_every_driver(self):
+        stranger = self.stranger()
+        for settings, compiled in ((SMALL, 2), (NETWORK, 1)):  # the self-test, and what filters
+            with self.subTest(settings):
+                self.use(settings)
+                self.assertIn("compiling kernels", self.expect_compiled(compiled, **stranger))
+                self.assertNotIn("compiling kernels", self.expect_compiled(0, **stranger))
+                self.assertNotIn("compiling kernels", self.expect_compiled(0, **stranger))
+
+    def test_damaged_programs_are_compiled_again(self):
+        stranger = self.stranger()
+        self.expect_compiled(2, **stranger)
+        damages = {"overwritten": lambda content, other: content[:len(content) // 2] + b"damaged" + content[len(content) // 2 + 7:],
+                   "of another": lambda content, other: other}
+        for name, damage in damages.items():
+            with self.subTest(name):
+                whole = [file.read_bytes() for file in self.kept()]
+                for file, content, other in zip(self.kept(), whole, reversed(whole)):
+                    file.write_bytes(damage(content, other))
+                self.expect_compiled(1, **stranger)  # the self-test is remembered
+                self.expect_compiled(0, **stranger)
+                self.expect(self.run_rpf("devices", **stranger), 0, "keeps the numeric contract")
+
+    def test_a_driver_that_does_not_take_its_own_programs_back(self):
+        stranger = {**self.stranger(), "REFUSES": "yes"}
+        self.expect_compiled(3, **stranger)  # self-test and filter in the child, and again here
+        self.assertNotIn("compiling kernels", self.expect_compiled(1, **stranger))
 
     # ---- what compilers say
 
