@@ -4,6 +4,7 @@
 #include <set>
 
 #include "network_launch.h"
+#include "opencl/target.h"
 
 namespace rpf {
 namespace {
@@ -43,7 +44,7 @@ LayerShape sample_shape(LayerShape shape, int own_stride, int out_stride) {
 }  // namespace
 
 Blocking blocking_of(const cl::Device& device) {
-  return device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>() >= 16 ? Blocking{16, 32} : Blocking{8, 16};
+  return floats_a_register(device) >= 16 ? Blocking{16, 32} : Blocking{8, 16};
 }
 
 NetworkProgram::NetworkProgram(Session& session, const EstimatePlan& plan, const Blocking& blocking, const Check& check)

@@ -12,6 +12,7 @@
 #include "opencl/kernel_source.h"
 #include "opencl/machine_state.h"
 #include "opencl/probe.h"
+#include "opencl/target.h"
 
 namespace rpf {
 namespace {
@@ -47,20 +48,6 @@ std::string failures_in_brackets() {
 
 std::string key_of(const std::string& file, const std::string& definitions, const std::string& more) {
   return file + " " + definitions + "\n" + more;
-}
-
-bool is_pocl(const cl::Device& device) { return device.getInfo<CL_DEVICE_VERSION>().find("PoCL") != std::string::npos; }
-
-/// Whether this is PoCL on a processor whose AVX-512 counts bits in vectors; frame.cl says what for.
-bool has_new_avx512(const cl::Device& device) {
-#ifdef __x86_64__
-  return is_pocl(device) && (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0 &&
-         __builtin_cpu_supports("avx512vpopcntdq") && __builtin_cpu_supports("avx512bw") &&
-         __builtin_cpu_supports("avx512vl");
-#else
-  static_cast<void>(device);
-  return false;
-#endif
 }
 
 /// Empty where the driver has none for us.
