@@ -25,8 +25,9 @@ std::string list(const std::vector<std::string>& names) {
 }
 
 /// The need; more than the limit is refused before anything is read.
-std::uint64_t check_budget(const FilterInput& input, const Settings& settings, bool tell) {
-  const auto need = std::max(predicted_memory(input.info, settings), input.image_bytes);
+std::uint64_t check_budget(const FilterInput& input, const Settings& settings, bool tell, bool has_page) {
+  const auto need = std::max(
+      {predicted_memory(input.info, settings), input.image_bytes, has_page ? page_bytes(input.info, false) : 0});
   const double need_mb = static_cast<double>(need) / megabyte,
                limit_mb = static_cast<double>(settings.max_memory) / megabyte;
   if (tell) print("peak memory: {:.0f} MB of at most {:.0f} MB, {} threads\n", need_mb, limit_mb, settings.threads);
@@ -111,7 +112,7 @@ OpenFrame open_frame(const FilterOptions& options) {
   const SampleFileInfo& info = frame.input.info;
   if (frame.input.is_image() && options.sigma_color == 0) frame.settings.sigma_color = image_sigma_color;
   check_features(options, info);
-  frame.need = check_budget(frame.input, frame.settings, options.verbose || options.dry_run);
+  frame.need = check_budget(frame.input, frame.settings, options.verbose || options.dry_run, !options.report.empty());
   if (frame.settings.crop) check_crop(*frame.settings.crop, info.data_window);
   check_outputs(planned_outputs(options, frame.input, frame.settings), {options.input});
   const SampleFileInfo stored = as_image(info, options.output);

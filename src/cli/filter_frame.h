@@ -34,7 +34,8 @@ std::uint64_t read_bytes(const OpenFrame& frame);
 
 ReadFrame read_frame(const OpenFrame& frame);
 
-/// Filters with these settings and writes, the page about it last; a signal meanwhile throws Error(cancelled) and leaves nothing.
+/// Filters with these settings and writes, the page about it last; a signal meanwhile throws Error(cancelled) and
+/// leaves nothing.
 Result filter_and_write(const OpenFrame& frame, const Settings& settings, ReadFrame read);
 
 /// What -v says of a run.

@@ -52,13 +52,6 @@ bool lies_inside(const Window& part, const Window& whole) {
          part.y + part.height <= whole.y + whole.height;
 }
 
-/// Peak bytes of the page beside the measuring: pictures, maps, and the text that they become.
-std::uint64_t page_bytes(const FilterInput& input) {
-  constexpr std::uint64_t bytes_of_pixel = 240;
-  const std::uint64_t pixels = input.info.data_window.pixel_count();
-  return pixels * bytes_of_pixel + comparing_bytes(pixels);
-}
-
 /// Everything that the page shows.
 class FramePage {
  public:
@@ -67,13 +60,15 @@ class FramePage {
         input_(open_input(job.input, Method::gaussian, job.read)),
         page_(fmt::format("{}, before and after", name_of_file(job.input))) {
     const std::uint64_t limit = job.machine.max_memory;
-    check_need(input_.info, "the page", std::max(page_bytes(input_), input_.image_bytes), limit);
+    check_need(input_.info, "the page", std::max(page_bytes(input_.info, !job.reference.empty()), input_.image_bytes),
+               limit);
     after_ = read_image(job.output, limit);
     if (!job.reference.empty()) reference_ = read_image(job.reference, limit);
     check_window();
-    noise_ = measure_noise(input_, job);
+    noise_ = measure_noise(input_, job, image_bytes(after_) + (reference_ ? image_bytes(*reference_) : 0));
     window_ = is_whole() ? input_.info.data_window : after_.data_window;
     noise_.mean = cropped(noise_.mean, window_);
+    if (noise_.layer) noise_.layer->image = cropped(noise_.layer->image, window_);
   }
 
   void write() {
@@ -141,7 +136,7 @@ class FramePage {
       viewer.layers.push_back(difference("error before", job_.input, noise_.mean, job_.reference, *reference_));
       viewer.layers.push_back(difference("error after", job_.output, after_, job_.reference, *reference_));
     }
-    if (noise_.explanation) viewer.layers.push_back(attribution());
+    if (noise_.layer) viewer.layers.push_back(std::move(*noise_.layer));
     const bool exact = report::is_exact(viewer);
     page_.viewer(viewer);
     page_.paragraph(
@@ -149,21 +144,6 @@ class FramePage {
                     "(a - b)\u00b2 / (b\u00b2 + 0.01), as rpf compare --diff draws them.",
                     exact ? "the values are those of the files to the last bit, told with six digits"
                           : "the values are those of the files with four digits"));
-  }
-
-  report::ViewerLayer attribution() const {
-    const Explanation& explanation = *noise_.explanation;
-    const ExplainMap map = attribution_map(explanation);
-    Image image = map.picture;
-    image.data_window = explanation.layers.data_window;
-    image.channels.insert(image.channels.end(), explanation.groups.begin(), explanation.groups.end());
-    image.pixels.clear();
-    for (std::size_t p = 0; p < image.data_window.pixel_count(); ++p) {
-      image.pixels.insert(image.pixels.end(), map.picture.pixel(p), map.picture.pixel(p) + 3);
-      for (const std::string& group : explanation.groups)
-        image.pixels.push_back(explanation.layers.pixel(p)[channel_of(explanation.layers, "share." + group)]);
-    }
-    return {"where the noise comes from", report::LayerKind::color, cropped(image, window_), map.legend};
   }
 
   void add_errors() {
@@ -186,7 +166,7 @@ class FramePage {
 
   void add_noise() {
     page_.heading("Where the noise comes from");
-    if (!noise_.explanation) return page_.paragraph(noise_.missing);
+    if (!noise_.missing.empty()) return page_.paragraph(noise_.missing);
     page_.paragraph(
         fmt::format("What each random parameter alone decides, of the variance of the plain mean; measured on the "
                     "samples in {:.1f} s (rpf explain has more, docs/explain.md how far to trust it). The layer "
@@ -195,7 +175,7 @@ class FramePage {
     report::Table table{{"random parameter", "of the frame's noise", "pixels where it is first"}, {}, 1};
     double rest = 1;
     const auto percent = [](double part) { return fmt::format("{:.1f} %", 100 * part); };
-    for (const NoisePart& part : noise_parts(*noise_.explanation)) {
+    for (const NoisePart& part : noise_.parts) {
       table.rows.push_back({part.group, percent(part.of_noise), percent(part.of_pixels)});
       rest -= part.of_noise;
     }
@@ -302,6 +282,14 @@ class FramePage {
 };
 
 }  // namespace
+
+std::uint64_t page_bytes(const SampleFileInfo& info, bool has_reference) {
+  constexpr std::uint64_t images = 3 * 4 * sizeof(float);  // before, after, reference
+  constexpr std::uint64_t layers = (3 * 3 + 3 + 6) * sizeof(float), text = 160;
+  const std::uint64_t pixels = info.data_window.pixel_count();
+  return pixels * images +
+         std::max(pixels * (layers + text), has_reference ? pixels * text + comparing_bytes(pixels) : 0);
+}
 
 void write_frame_page(const FramePageJob& job) { FramePage(job).write(); }
 

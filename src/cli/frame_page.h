@@ -29,6 +29,9 @@ struct FramePageJob {
   std::optional<RunFigures> run = {};
 };
 
+/// Peak bytes of making the page of a frame beside noise attribution, which is left out where it takes too much.
+std::uint64_t page_bytes(const SampleFileInfo& info, bool has_reference);
+
 /// Reads the files and writes the page; tells on standard error how long noise attribution will be at work. Throws
 /// Error.
 void write_frame_page(const FramePageJob& job);

@@ -14,7 +14,7 @@ auto measuring(const std::string& image, const std::string& reference, const Wor
   try {
     return work();
   } catch (const Error& e) {
-    throw Error(e.kind(), fmt::format("\"{}\", measured against \"{}\": {}", image, reference, e.what()));
+    throw Error(e.kind(), fmt::format(R"("{}", measured against "{}": {})", image, reference, e.what()));
   }
 }
 

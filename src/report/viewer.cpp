@@ -105,7 +105,7 @@ bool is_exact(const Viewer& viewer) { return viewer.layers.front().image.data_wi
 std::string viewer_html(const Viewer& viewer) {
   std::string html = page_files().at("viewer.html");
   html.replace(html.find(legends_place), legends_place.size(), legends_of(viewer));
-  html += "<script type=\"application/json\" id=\"viewer-frame\">" + text_of(frame_of(viewer)) + "</script>\n";
+  html += R"(<script type="application/json" id="viewer-frame">)" + text_of(frame_of(viewer)) + "</script>\n";
   for (std::size_t i = 0; i < viewer.layers.size(); ++i) {
     const ViewerLayer& layer = viewer.layers[i];
     html += fmt::format("<script type=\"text/plain\" id=\"viewer-layer-{}\">{}</script>\n", i,

@@ -70,6 +70,7 @@ class Memory(unittest.TestCase):
         self.assertEqual(self.run_rpf("scene", "dof", "--size", "300x200", "--spp", "4", "-q", "-o", self.samples)[0], 0)
         other = self.folder / "other.exr"
         self.assertEqual(self.run_rpf("scene", "dof", "--size", "300x200", "--spp", "4", "--seed", "2", "-q", "-o", other)[0], 0)
+        self.assertEqual(self.run_rpf(self.samples, "-o", self.samples.with_name("mean.exr"), "--boxes", "none", "-q")[0], 0)
         return {"filter": [self.samples, "-o", output, "--boxes", "3", "-q"],
                 "bilateral": ["--method", "bilateral", self.picture, "-o", output, "--boxes", "3", "-q"],
                 "compare": ["compare", self.picture, self.picture],
@@ -77,6 +78,7 @@ class Memory(unittest.TestCase):
                 "convert": ["convert", self.samples, "-o", output],
                 "merge": ["merge", self.samples, other, "-o", output],
                 "info": ["info", self.samples],
+                "report": ["report", self.samples, self.samples.with_name("mean.exr"), self.samples.with_name("mean.exr"), "-o", self.folder / "page.html", "-q"],
                 "explain": ["explain", self.samples, "-o", self.folder / "explained", "--box", "3", "-q"]}
 
     def test_every_command_knows_what_it_needs(self):
