@@ -34,35 +34,49 @@ const tones = {
   'Reinhard': v => v <= 0 ? 0 : v / (1 + v),
 };
 
-// The byte of linear light (IEC 61966-2-1).
-function encoded(v) {
-  const light = clamp(v, 0, 1);
+// The bytes of linear light from 0 to 1 (IEC 61966-2-1), so close together that neighbors differ by a tenth of a byte at most.
+const displayed = Uint8Array.from({length: 1 << 16}, (_, i) => {
+  const light = i / 65535;
   return Math.round(255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * light ** (1 / 2.4) - 0.055));
+});
+const encoded = light => light > 0 ? displayed[Math.min(light, 1) * 65535 + 0.5 | 0] : 0;
+
+// Each paints pixel p into the bytes of an image. What is no number is magenta.
+function lightPainter([red, green, blue]) {
+  const gain = 2 ** view.exposure, tone = tones[view.tone];
+  const shown = light => encoded(light === Infinity ? 1 : tone(light * gain));
+  return (image, p) => {
+    const isNumber = !Number.isNaN(red[p]) && !Number.isNaN(green[p]) && !Number.isNaN(blue[p]);
+    image[4 * p] = isNumber ? shown(red[p]) : 255;
+    image[4 * p + 1] = isNumber ? shown(green[p]) : 0;
+    image[4 * p + 2] = isNumber ? shown(blue[p]) : 255;
+  };
 }
 
-const notANumber = [255, 0, 255];  // magenta: no other value has it on purpose
-
-function lightColor(planes, p, gain, tone) {
-  const light = [planes[0][p], planes[1][p], planes[2][p]];
-  if (light.some(Number.isNaN)) return notANumber;
-  return light.map(v => encoded(v === Infinity ? 1 : tone(v * gain)));
+function errorPainter([errors]) {
+  const decades = Math.log(frame.brightest / frame.darkest);
+  return (image, p) => {
+    const position = Math.log(errors[p] / frame.darkest) / decades;
+    const color = frame.magma[Math.round(255 * (position < 1 ? Math.max(position, 0) : 1))];  // NaN: the brightest
+    image[4 * p] = color >> 16;
+    image[4 * p + 1] = color >> 8 & 255;
+    image[4 * p + 2] = color & 255;
+  };
 }
 
-function errorColor(planes, p) {
-  const position = Math.log(planes[0][p] / frame.darkest) / Math.log(frame.brightest / frame.darkest);
-  const color = frame.magma[Math.round(255 * (position < 1 ? Math.max(position, 0) : 1))];  // NaN: the brightest
-  return [color >> 16, color >> 8 & 255, color & 255];
+function colorPainter(planes) {
+  return (image, p) => {
+    for (let channel = 0; channel < 3; ++channel) image[4 * p + channel] = encoded(planes[channel][p]);
+  };
 }
+
+const painters = {light: lightPainter, error: errorPainter, color: colorPainter};
 
 function draw(layer) {
-  const gain = 2 ** view.exposure, tone = tones[view.tone];
-  const color = layer.kind === 'error' ? p => errorColor(layer.planes, p)
-    : layer.kind === 'light' ? p => lightColor(layer.planes, p, gain, tone)
-    : p => layer.planes.slice(0, 3).map(plane => encoded(plane[p]));
-  const image = new ImageData(frame.width, frame.height);
+  const image = new ImageData(frame.width, frame.height), paint = painters[layer.kind](layer.planes);
   for (let p = 0; p < pixels; ++p) {
-    const [red, green, blue] = color(p);
-    image.data.set([red, green, blue, 255], 4 * p);
+    paint(image.data, p);
+    image.data[4 * p + 3] = 255;
   }
   layer.canvas.getContext('2d').putImageData(image, 0, 0);
 }
