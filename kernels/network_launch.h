@@ -49,7 +49,7 @@ typedef struct {
   int inputs;  // columns of records
 } rpf_layer;
 
-// Some pixels of a window of the frame, row by row, whose samples lie side by side in the frame: records, colors,
+// Some pixels of a window of the frame, row by row, whose samples lie side by side in the frame: records, others,
 // weights and what is made of samples begin with the first of them.
 typedef struct {
   int first, end;     // pixels of the window

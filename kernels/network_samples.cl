@@ -217,28 +217,32 @@ __kernel void weigh_samples(__global const float* hidden, __global const float* 
   }
 }
 
-__kernel void sum_samples(__global const float* weights, __global const float* seen, __global const float* colors,
-                          __global const uint* first_sample, __global float* sums, const rpf_chunk c,
+// Of values that lie `stride` apart.
+static float weighted_sum(__global const float* weights, __global const float* values, int stride, uint count) {
+  float sum = 0.0f;
+  for (uint s = 0; s < count; ++s) sum = fma(weights[s], values[(size_t)s * (size_t)stride], sum);
+  return sum;
+}
+
+// `others`: what is carried beside the color; whatever where there is nothing.
+__kernel void sum_samples(__global const float* weights, __global const float* seen, __global const float* records,
+                          __global const float* others, __global const uint* first_sample, __global float* sums, const rpf_chunk c,
                           const rpf_grid grid) {
   const int planes = (int)rpf_sums((uint)c.carried), plane = plane_of(&grid, planes);
   for (int p = c.first + (int)get_global_id(0); p < c.end; p += (int)get_global_size(0)) {
     const int y = p / c.width, x = p % c.width;
     const PixelSamples samples = samples_of_pixel(first_sample, &c, y, x);
-    __global const float* color = colors + samples.first * (size_t)c.carried;
+    __global const float* color = records + samples.first * (size_t)c.variables;
+    __global const float* other = others + samples.first * (size_t)(c.carried - 3);
     __global const float* base = seen + samples.first * RPF_SEEN + RPF_SEEN_BASE;
     __global float* row = sums + row_at(&grid, y);
     __global float* out = row + RPF_MARGIN + x;
-    for (int k = 0; k < c.carried; ++k) {
-      float sum = 0.0f;
-      for (uint s = 0; s < samples.count; ++s)
-        sum = fma(weights[samples.first + s], color[(size_t)s * (size_t)c.carried + (size_t)k], sum);
-      out[(k < 3 ? RPF_SUM_RADIANCE + k : RPF_SUM_OTHERS + k - 3) * plane] = sum;
-    }
-    for (int k = 0; k < 3; ++k) {
-      float sum = 0.0f;
-      for (uint s = 0; s < samples.count; ++s) sum = fma(weights[samples.first + s], base[s * RPF_SEEN + (uint)k], sum);
-      out[(RPF_SUM_BASE + k) * plane] = sum;
-    }
+    for (int k = 0; k < 3; ++k)
+      out[(RPF_SUM_RADIANCE + k) * plane] = weighted_sum(weights + samples.first, color + k, c.variables, samples.count);
+    for (int k = 0; k + 3 < c.carried; ++k)
+      out[(RPF_SUM_OTHERS + k) * plane] = weighted_sum(weights + samples.first, other + k, c.carried - 3, samples.count);
+    for (int k = 0; k < 3; ++k)
+      out[(RPF_SUM_BASE + k) * plane] = weighted_sum(weights + samples.first, base + k, RPF_SEEN, samples.count);
     float total = 0.0f;
     for (uint s = 0; s < samples.count; ++s) total += weights[samples.first + s];
     out[RPF_SUM_WEIGHT * plane] = total;

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "cpu/cpu_backend.h"
-#include "frame/prepare.h"
 #include "learned/observe.h"
 #include "opencl/opencl_backend.h"
 
@@ -27,8 +26,9 @@ std::vector<float> in_bands(Backend& device, const Window& crop) {
 
 Comparison compare_estimates(const ConformanceCase& c, SampleBuffer samples, const std::string& device_name,
                              int threads) {
-  PreparedFrame prepared = prepare(std::move(samples), c.settings);
-  const EstimatePlan plan = observe(prepared, c.network);
+  const Observed observed = observe(std::move(samples), c.settings, c.network);
+  const PreparedFrame& prepared = observed.prepared;
+  const EstimatePlan& plan = observed.plan;
   CpuBackend reference(threads);
   OpenClBackend device({device_name, threads, 0});
   reference.load_estimate(prepared.frame, prepared.colors, plan);

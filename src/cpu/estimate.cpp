@@ -25,10 +25,10 @@ int halved(int size) { return (size + 1) / 2; }
 
 }  // namespace
 
-Estimate::Estimate(const Frame& frame, const std::vector<float>& colors, const EstimatePlan& plan, const Window& window,
+Estimate::Estimate(const Frame& frame, const std::vector<float>& others, const EstimatePlan& plan, const Window& window,
                    RowLoop for_rows, std::vector<EstimateStage>* stages)
     : frame_(frame),
-      colors_(colors),
+      others_(others),
       plan_(plan),
       network_(*plan.network),
       window_(window),
@@ -139,17 +139,17 @@ void Estimate::sum_pixel(int x, int y, SampleNetwork& network) {
     const SeenSample& seen = network.see(i);
     const float share = frame_.weights.empty() ? 1.0F : frame_.weights[i] * plan_.weight_scale;
     const float w = network.weight(context) * share;
-    const float* carried = colors_.data() + i * plan_.carried;
+    const float *color = frame_.record(i), *other = others_.data() + i * (plan_.carried - 3);
     const auto add = [&](std::size_t sum, float value) {
       float& s = sums_.at(y, sum)[x];
       s = fma(w, value, s);
     };
     for (std::size_t c = 0; c < 3; ++c) {
-      add(RPF_SUM_RADIANCE + c, carried[c]);
+      add(RPF_SUM_RADIANCE + c, color[c]);
       add(RPF_SUM_BASE + c, seen.base[c]);
     }
     sums_.at(y, RPF_SUM_WEIGHT)[x] += w;
-    for (std::size_t c = 3; c < plan_.carried; ++c) add(RPF_SUM_OTHERS + c - 3, carried[c]);
+    for (std::size_t c = 0; c + 3 < plan_.carried; ++c) add(RPF_SUM_OTHERS + c, other[c]);
     if (!sample_weights_.empty()) {
       const std::size_t place =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(window_.width) + static_cast<std::size_t>(x);

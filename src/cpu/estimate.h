@@ -19,8 +19,9 @@ using RowLoop = std::function<void(int rows, double row_work, const std::functio
 
 class Estimate {
  public:
-  /// `colors`: [sample][carried]. With `stages` every stage is kept there (estimate_plan.h).
-  Estimate(const Frame& frame, const std::vector<float>& colors, const EstimatePlan& plan, const Window& window,
+  /// `others`: [sample][carried - 3], what is carried beside the color. With `stages` every stage is kept there
+  /// (estimate_plan.h).
+  Estimate(const Frame& frame, const std::vector<float>& others, const EstimatePlan& plan, const Window& window,
            RowLoop for_rows, std::vector<EstimateStage>* stages = nullptr);
 
   /// [pixel of the window][carried]
@@ -56,7 +57,7 @@ class Estimate {
   void keep_head();
 
   const Frame& frame_;
-  const std::vector<float>& colors_;
+  const std::vector<float>& others_;
   const EstimatePlan& plan_;
   const Network& network_;
   Window window_;

@@ -25,8 +25,9 @@ class Estimated {
         backend_(make_backend(settings)) {
     result_.position = position;
     check_memory(samples, settings);
-    prepared_ = prepare(std::move(samples), settings);
-    plan_ = observe(prepared_, find_network(settings.model));
+    Observed observed = observe(std::move(samples), settings, find_network(settings.model));
+    prepared_ = std::move(observed.prepared);
+    plan_ = std::move(observed.plan);
     result_.model = plan_.network->name;
   }
 
@@ -45,10 +46,10 @@ class Estimated {
     std::copy(shares.factor.begin(), shares.factor.end(), result_.factor.begin());
     list_samples(shares);
     const float* color = stages.back().values.data() + place(window, x, y) * stages.back().channels;
-    const std::vector<float> means = resolve(prepared_.frame, prepared_.colors, plan_.carried);
+    const std::array<double, 3> mean = mean_color(prepared_.frame, number_);
     for (std::size_t c = 0; c < 3; ++c) {
       result_.result.at(c) = radiance(color[c]);
-      result_.mean.at(c) = radiance(means[number_ * plan_.carried + c]);
+      result_.mean.at(c) = radiance(static_cast<float>(mean.at(c)));
     }
     return std::move(result_);
   }
@@ -78,7 +79,7 @@ class Estimated {
         for (std::uint32_t i = 0; i < prepared_.frame.samples(number(x, y)); ++i, ++within) {
           const double share = *within * shares.pixels[place(window, x, y)];
           if (share <= 0) continue;
-          const float* color = prepared_.colors.data() + (first + i) * plan_.carried;
+          const float* color = prepared_.frame.record(first + i);
           result_.samples.push_back({{x + data_window_.x, y + data_window_.y},
                                      {radiance(color[0]), radiance(color[1]), radiance(color[2])},
                                      static_cast<float>(share)});

@@ -182,7 +182,7 @@ Columns find_columns(const SampleBuffer& samples, bool clamp_infinite) {
   return c;
 }
 
-std::vector<InputNote> clean(SampleBuffer& samples, const Columns& columns, bool clamp_negative) {
+CleanReport clean(SampleBuffer& samples, const Columns& columns, bool clamp_negative) {
   Findings findings;
   findings.missing_columns.resize(samples.layout.size());
   std::vector<std::size_t> lost;
@@ -202,7 +202,9 @@ std::vector<InputNote> clean(SampleBuffer& samples, const Columns& columns, bool
     findings.lost = {};
   }
   samples.values.resize(kept * samples.layout.size());
-  return notes_of(findings, samples, clamp_negative);
+  const bool lacks_positions = std::any_of(std::begin(columns.film), std::end(columns.film),
+                                           [&](std::size_t c) { return findings.missing_columns[c] != 0; });
+  return {notes_of(findings, samples, clamp_negative), lacks_positions};
 }
 
 }  // namespace rpf

@@ -15,14 +15,14 @@ namespace {
 constexpr double nearly_all = 0.9;  // some agree by chance with ours, and so are not among those that contradict it
 
 /// Random numbers; 1 itself is what half makes of the largest below it.
-class RandomCheck : public ConventionCheck {
+class RandomCheck : public SampleCheck<RandomCheck> {
  public:
   explicit RandomCheck(const SampleLayout& layout) : layout_(layout), wrong_(layout.size()) {
     for (std::size_t c = 0; c < layout.size(); ++c)
       if (is_random_slot(layout.slots[c])) columns_.push_back(c);
   }
 
-  void add(const float* record, std::size_t pixel) override {
+  void add_sample(const float* record, std::size_t pixel) {
     for (const std::size_t c : columns_) {
       const float value = record[c];
       if ((value >= 0 && value <= 1) || !std::isfinite(value)) continue;
@@ -52,14 +52,11 @@ class RandomCheck : public ConventionCheck {
 /// Pixels whose samples are copies of one: a sampler that starts anew for every sample.
 class CopyCheck : public ConventionCheck {
  public:
-  explicit CopyCheck(const SampleBuffer& samples) : samples_(samples) {}
-
-  void add(const float* record, std::size_t pixel) override {
-    const std::uint32_t begin = samples_.first_sample[pixel], end = samples_.first_sample[pixel + 1];
-    const float* first = samples_.record(begin);
-    if (record == first) same_ = end - begin > 1;
-    same_ = same_ && std::memcmp(first, record, samples_.layout.size() * sizeof(float)) == 0;
-    if (same_ && record == samples_.record(end - 1)) copies_.add(pixel);
+  void add(const SampleBuffer& samples, std::size_t pixel) override {
+    const std::uint32_t begin = samples.first_sample[pixel], end = samples.first_sample[pixel + 1];
+    for (std::uint32_t i = begin + 1; i < end; ++i)
+      if (std::memcmp(samples.record(begin), samples.record(i), samples.layout.size() * sizeof(float)) != 0) return;
+    if (end - begin > 1) copies_.add(pixel);
   }
 
   void tell(const Window& data_window, std::vector<InputNote>& notes) const override {
@@ -70,8 +67,6 @@ class CopyCheck : public ConventionCheck {
   }
 
  private:
-  const SampleBuffer& samples_;
-  bool same_ = false;
   Tally copies_;
 };
 
@@ -98,10 +93,9 @@ std::vector<InputNote> check_conventions(const SampleBuffer& samples) {
   add_film_check(samples, checks);
   checks.push_back(std::make_unique<RandomCheck>(samples.layout));
   add_surface_checks(samples, checks);
-  checks.push_back(std::make_unique<CopyCheck>(samples));
+  checks.push_back(std::make_unique<CopyCheck>());
   for (std::size_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel)
-    for (std::uint32_t i = samples.first_sample[pixel]; i < samples.first_sample[pixel + 1]; ++i)
-      for (const auto& check : checks) check->add(samples.record(i), pixel);
+    for (const auto& check : checks) check->add(samples, pixel);
   std::vector<InputNote> notes;
   for (const auto& check : checks) check->tell(samples.data_window, notes);
   return notes;

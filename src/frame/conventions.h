@@ -1,4 +1,4 @@
-// What in a frame contradicts docs/file-format.md: each check sees every sample once.
+// What in a frame contradicts docs/file-format.md: each check sees every sample once, pixel by pixel.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,21 @@ class ConventionCheck {
   ConventionCheck(const ConventionCheck&) = delete;
   ConventionCheck& operator=(const ConventionCheck&) = delete;
 
-  /// One sample of a pixel (row-major in the data window); pixels come in ascending order.
-  virtual void add(const float* record, std::size_t pixel) = 0;
+  /// The samples of a pixel (row-major in the data window); pixels come in ascending order.
+  virtual void add(const SampleBuffer& samples, std::size_t pixel) = 0;
   virtual void tell(const Window& data_window, std::vector<InputNote>& notes) const = 0;
 };
+
+/// A check of single samples: `Check` has add_sample(record, pixel).
+template <typename Check>
+class SampleCheck : public ConventionCheck {
+ public:
+  void add(const SampleBuffer& samples, std::size_t pixel) final {
+    for (std::uint32_t i = samples.first_sample[pixel]; i < samples.first_sample[pixel + 1]; ++i)
+      static_cast<Check*>(this)->add_sample(samples.record(i), pixel);
+  }
+};
+
 using ConventionChecks = std::vector<std::unique_ptr<ConventionCheck>>;
 
 /// Film positions outside their pixel.

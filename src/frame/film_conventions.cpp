@@ -15,7 +15,7 @@ struct Place {
 /// Rounding may carry a position over the border of its pixel; half holds 11 bits.
 double slack(double at, bool is_half) { return 1e-3 + std::fabs(at) * (is_half ? 1.0 / 1024 : 1.0 / (1 << 22)); }
 
-class FilmCheck : public ConventionCheck {
+class FilmCheck : public SampleCheck<FilmCheck> {
  public:
   explicit FilmCheck(const SampleBuffer& samples)
       : window_(samples.data_window),
@@ -24,7 +24,7 @@ class FilmCheck : public ConventionCheck {
     enter(0);
   }
 
-  void add(const float* record, std::size_t pixel) override {
+  void add_sample(const float* record, std::size_t pixel) {
     const Place at{record[columns_[0]], record[columns_[1]]};
     if (pixel != pixel_) enter(pixel);
     if (is_in(corner_, at) || !std::isfinite(at.x) || !std::isfinite(at.y)) return;

@@ -1,7 +1,6 @@
 // From a sample buffer to a frame.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,18 +16,17 @@ namespace rpf {
 struct PreparedFrame {
   Frame frame;
   FrameFacts facts;
-  std::vector<float> colors;               ///< [sample][carried]: c' before the first pass
+  /// [sample][carried]: c' before the first pass. Of the learned estimator only what is carried beside the color.
+  std::vector<float> colors;
   std::vector<std::string> carried_names;  ///< R, G, B, [A], [features as in the file]
   std::vector<std::string> dropped;        ///< selected channels that are constant over the frame
   std::vector<std::string> uninformative;  ///< those left out by drop_uninformative()
   std::vector<InputNote> notes;
 };
 
-/// The largest number of samples in one pixel.
-std::uint32_t most_samples(const std::vector<std::uint32_t>& first_sample);
-
 /// Leaves out unusable samples, marks missing values, drops constant channels, scales the radiance and repacks the
-/// records in place (algorithm.md, section 1; docs/architecture.md, "One run").
+/// records in place (algorithm.md, section 1; docs/architecture.md, "One run"). For all methods but the learned one,
+/// which observe() prepares.
 PreparedFrame prepare(SampleBuffer samples, const Settings& settings);
 
 }  // namespace rpf

@@ -43,4 +43,32 @@ std::vector<float> resolve(const Frame& frame, const std::vector<float>& colors,
   return image;
 }
 
+std::array<double, 3> mean_color(const Frame& frame, std::size_t pixel) {
+  std::array<double, 3> sum{}, plain{};
+  double total = 0;
+  for (std::uint32_t i = frame.first_sample[pixel]; i < frame.first_sample[pixel + 1]; ++i) {
+    const double weight = frame.weights.empty() ? 1 : frame.weights[i];
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum.at(c) += weight * frame.record(i)[c];
+      plain.at(c) += frame.record(i)[c];
+    }
+    total += weight;
+  }
+  if (total > 0)
+    for (double& value : sum) value /= total;
+  else if (frame.samples(pixel) > 0)  // as resolve() does where no sample has a weight
+    for (std::size_t c = 0; c < 3; ++c) sum.at(c) = plain.at(c) / frame.samples(pixel);
+  return sum;
+}
+
+double energy_of_means(const Frame& frame, const Window& region) {
+  double sum = 0;
+  for (int y = region.y; y < region.y + region.height; ++y)
+    for (int x = region.x; x < region.x + region.width; ++x)
+      for (const double c : mean_color(frame, static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
+                                                  static_cast<std::size_t>(x)))
+        sum += c;
+  return sum;
+}
+
 }  // namespace rpf

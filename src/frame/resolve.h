@@ -1,14 +1,22 @@
 // From samples to pixels: the last step of the filter.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "frame/frame.h"
+#include "rpf/image.h"
 
 namespace rpf {
 
 /// The mean of every pixel's samples, weighted where the frame has weights: [pixel][carried], 0 where there are no
 /// samples. `colors`: [sample][carried], scaled radiance.
 std::vector<float> resolve(const Frame& frame, const std::vector<float>& colors, std::size_t carried);
+
+/// The mean color of a pixel's samples, from the records, in double: for what is told, not for what is filtered.
+std::array<double, 3> mean_color(const Frame& frame, std::size_t pixel);
+
+/// Sum of the components of mean_color() over a region.
+double energy_of_means(const Frame& frame, const Window& region);
 
 }  // namespace rpf

@@ -29,21 +29,20 @@ bool is_unit(const Vector& v) {
   return square >= least && square <= most;
 }
 
-/// The checks of samples that hit something.
-class HitCheck : public ConventionCheck {
+/// A check of samples that hit something: `Check` has add_hit(record, pixel).
+template <typename Check>
+class HitCheck : public SampleCheck<HitCheck<Check>> {
  public:
   explicit HitCheck(const SampleLayout& layout) : hit_(layout.find("feature.hit")) {}
-  void add(const float* record, std::size_t pixel) final {
-    if (!hit_ || record[*hit_] != 0) add_hit(record, pixel);
+  void add_sample(const float* record, std::size_t pixel) {
+    if (!hit_ || record[*hit_] != 0) static_cast<Check*>(this)->add_hit(record, pixel);
   }
 
  private:
-  virtual void add_hit(const float* record, std::size_t pixel) = 0;
-
   std::optional<std::size_t> hit_;
 };
 
-class NormalCheck : public HitCheck {
+class NormalCheck : public HitCheck<NormalCheck> {
  public:
   NormalCheck(const SampleLayout& layout, std::string group, std::vector<std::size_t> columns)
       : HitCheck(layout), group_(std::move(group)), columns_(std::move(columns)) {}
@@ -54,8 +53,7 @@ class NormalCheck : public HitCheck {
                 data_window, notes);
   }
 
- private:
-  void add_hit(const float* record, std::size_t pixel) override {
+  void add_hit(const float* record, std::size_t pixel) {
     const Vector n = vector_at(record, columns_);
     if (is_unit(n) || dot(n, n) == 0 || !std::isfinite(dot(n, n))) return;  // (0,0,0): nothing was hit
     wrong_.add(pixel);
@@ -63,13 +61,14 @@ class NormalCheck : public HitCheck {
     encoded_.agreeing += in_cube && is_unit({2 * n[0] - 1, 2 * n[1] - 1, 2 * n[2] - 1}) ? 1 : 0;
   }
 
+ private:
   std::string group_;
   std::vector<std::size_t> columns_;
   Tally wrong_;
   Guess encoded_{"which look encoded to 0 to 1; write 2 N - 1"};
 };
 
-class AlbedoCheck : public HitCheck {
+class AlbedoCheck : public HitCheck<AlbedoCheck> {
  public:
   AlbedoCheck(const SampleLayout& layout, std::string group, std::vector<std::size_t> columns)
       : HitCheck(layout), group_(std::move(group)), columns_(std::move(columns)) {}
@@ -80,8 +79,7 @@ class AlbedoCheck : public HitCheck {
                 data_window, notes);
   }
 
- private:
-  void add_hit(const float* record, std::size_t pixel) override {
+  void add_hit(const float* record, std::size_t pixel) {
     for (const std::size_t c : columns_) {
       const float value = record[c];
       if ((value <= most_reflected && value >= 0) || !std::isfinite(value)) continue;
@@ -91,6 +89,7 @@ class AlbedoCheck : public HitCheck {
     }
   }
 
+ private:
   std::string group_;
   std::vector<std::size_t> columns_;
   Tally wrong_;
@@ -99,7 +98,7 @@ class AlbedoCheck : public HitCheck {
 
 /// Neighbors on a surface differ in directions that its normal is at right angles to. Where most do not, positions and
 /// normals are of two spaces: world and camera.
-class SpaceCheck : public HitCheck {
+class SpaceCheck : public HitCheck<SpaceCheck> {
  public:
   SpaceCheck(const SampleLayout& layout, std::vector<std::size_t> normal, std::vector<std::size_t> position)
       : HitCheck(layout), normal_(std::move(normal)), position_(std::move(position)) {}
@@ -113,8 +112,7 @@ class SpaceCheck : public HitCheck {
         data_window, notes);
   }
 
- private:
-  void add_hit(const float* record, std::size_t pixel) override {
+  void add_hit(const float* record, std::size_t pixel) {
     const float* before = pixel == pixel_ ? before_ : nullptr;
     before_ = record;
     pixel_ = pixel;
@@ -129,6 +127,7 @@ class SpaceCheck : public HitCheck {
     if (across * across > off_surface * off_surface * square) wrong_.add(pixel);
   }
 
+ private:
   std::vector<std::size_t> normal_, position_;
   const float* before_ = nullptr;
   std::size_t pixel_ = 0;

@@ -8,13 +8,14 @@
 
 namespace rpf {
 
-/// Replaces the records of a prepared frame, in place, by what the network sees (estimate_plan.h), and plans for it.
-/// The names of what does not vary go from the frame's variables to `dropped`.
-EstimatePlan observe(PreparedFrame& prepared, std::shared_ptr<const Network> network);
+struct Observed {
+  PreparedFrame prepared;  ///< its records as in estimate_plan.h; variables: names of what varies
+  EstimatePlan plan;
+};
 
-/// The power of two that exposes the frame: of the mean luminance, without what is far above the median. Over all
-/// samples, in the order of the pixels.
-float exposure_of(const Frame& frame);
+/// Prepares a frame for the learned estimator: makes what the network sees in the place of the samples, and plans for
+/// it.
+Observed observe(SampleBuffer samples, const Settings& settings, std::shared_ptr<const Network> network);
 
 /// Of the positions of the first sample of every pixel that has one.
 struct PositionFacts {

@@ -45,12 +45,13 @@ float or_zero(float value) { return std::isnan(value) ? 0.0F : value; }
 float centered(float u) { return std::isnan(u) ? 0.0F : rpf_held(2 * u - 1, -1, 1); }
 
 /// The columns of a group's components.
-std::optional<Three> group_at(const Variables& v, const std::string& group, const char* axes) {
+std::optional<Three> group_at(const CleanFrame& clean, const std::string& group, const char* axes) {
+  const std::vector<std::string>& selected = clean.selection.features;
   Three columns{};
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto name = std::find(v.feature_names.begin(), v.feature_names.end(), group + "." + axes[k]);
-    if (name == v.feature_names.end()) return std::nullopt;
-    columns[k] = v.features() + static_cast<std::size_t>(name - v.feature_names.begin());
+    const std::string slot = "feature." + group + "." + axes[k];
+    if (std::find(selected.begin(), selected.end(), slot) == selected.end()) return std::nullopt;
+    columns[k] = *clean.samples.layout.find(slot);
   }
   return columns;
 }
@@ -63,22 +64,35 @@ int input_of(const std::string& variable) {
   return -1;
 }
 
-RecordView::RecordView(const Variables& variables)
-    : normal_(group_at(variables, "N", "XYZ")),
-      albedo_(group_at(variables, "albedo", "RGB")),
-      position_(group_at(variables, "P", "XYZ")),
-      normal2_(group_at(variables, "N2", "XYZ")),
-      position2_(group_at(variables, "P2", "XYZ")) {
-  for (std::size_t k = 0; k < variables.feature_names.size(); ++k)
-    if (variables.feature_names[k] == "hit") hit_ = variables.features() + k;
-  for (std::size_t k = 0; k < variables.random_names.size(); ++k)
-    if (const int input = input_of(variables.random_names[k]); input >= 0) random_[input] = Variables::random + k;
-  random_[RPF_INPUT_FILM] = Variables::position;
-  random_[RPF_INPUT_FILM + 1] = Variables::position + 1;
+RecordView::RecordView(const CleanFrame& clean)
+    : normal_(group_at(clean, "N", "XYZ")),
+      albedo_(group_at(clean, "albedo", "RGB")),
+      position_(group_at(clean, "P", "XYZ")),
+      normal2_(group_at(clean, "N2", "XYZ")),
+      position2_(group_at(clean, "P2", "XYZ")),
+      hit_(clean.columns.hit) {
+  for (const std::string& slot : clean.selection.random)
+    if (const int input = input_of(short_name(slot)); input >= 0)
+      numbers_.push_back({input, *clean.samples.layout.find(slot), 0, false});
+  const Window& window = clean.samples.data_window;
+  numbers_.push_back({RPF_INPUT_FILM, clean.columns.film[0], static_cast<float>(window.x), true});
+  numbers_.push_back({RPF_INPUT_FILM + 1, clean.columns.film[1], static_cast<float>(window.y), true});
+  for (int input = RPF_INPUT_NORMAL; input < RPF_INPUTS; ++input)
+    reads_.at(static_cast<std::size_t>(input)) = has(input);
+}
+
+RecordView RecordView::only(const std::vector<int>& inputs) const {
+  RecordView view = *this;
+  view.reads_.fill(false);
+  for (const int input : inputs) view.reads_.at(static_cast<std::size_t>(input)) = has(input);
+  const auto is_left_out = [&](const Number& n) { return !view.reads_.at(static_cast<std::size_t>(n.input)); };
+  view.numbers_.erase(std::remove_if(view.numbers_.begin(), view.numbers_.end(), is_left_out), view.numbers_.end());
+  return view;
 }
 
 bool RecordView::has(int input) const {
-  if (input >= RPF_INPUT_LENS) return random_[input].has_value();
+  if (input >= RPF_INPUT_LENS)
+    return std::any_of(numbers_.begin(), numbers_.end(), [&](const Number& n) { return n.input == input; });
   if (input == RPF_INPUT_DISTANCE2) return normal2_ && position_ && position2_;
   if (input >= RPF_INPUT_NORMAL2) return normal2_.has_value();
   if (input >= RPF_INPUT_MISS) return hit_ || normal_;
@@ -92,60 +106,64 @@ bool RecordView::is_hit(const float* record) const {
 }
 
 bool RecordView::is_second_hit(const float* record) const {
-  return is_hit(record) && is_there(record, *normal2_) && !is_zero(record, *normal2_);
+  return is_there(record, *normal2_) && !is_zero(record, *normal2_);
 }
 
 bool RecordView::has_position(const float* record) const {
   return position_ && is_hit(record) && is_there(record, *position_);
 }
 
-bool RecordView::any_hit(const Frame& frame) const {
-  for (std::size_t i = 0; i < frame.sample_count(); ++i)
-    if (is_hit(frame.record(i))) return true;
+bool RecordView::any_hit(const SampleBuffer& samples) const {
+  for (std::size_t i = 0; i < samples.sample_count(); ++i)
+    if (is_hit(samples.record(i))) return true;
   return false;
 }
 
-void RecordView::read_first_hit(const float* record, const PositionFacts& positions, float* inputs) const {
-  const bool is_hit_once = is_hit(record);
-  inputs[RPF_INPUT_MISS] = is_hit_once ? 0.0F : 1.0F;
+void RecordView::read_first_hit(const float* record, bool is_hit, const PositionFacts& positions, float* inputs) const {
+  inputs[RPF_INPUT_MISS] = is_hit ? 0.0F : 1.0F;
+  const auto read = [&](const Columns& columns, int input, float least, float most) {
+    for (std::size_t k = 0; k < 3; ++k)
+      inputs[static_cast<std::size_t>(input) + k] = is_hit ? rpf_held(or_zero(record[(*columns)[k]]), least, most) : 0;
+  };
+  if (reads_any(RPF_INPUT_NORMAL, 3)) read(normal_, RPF_INPUT_NORMAL, -longest_normal, longest_normal);
+  if (reads_any(RPF_INPUT_ALBEDO, 3)) read(albedo_, RPF_INPUT_ALBEDO, 0, 1);
+  if (!reads_any(RPF_INPUT_POSITION, 3)) return;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto value = [&](const Columns& columns) { return is_hit_once ? or_zero(record[(*columns)[k]]) : 0; };
-    if (normal_) inputs[RPF_INPUT_NORMAL + k] = rpf_held(value(normal_), -longest_normal, longest_normal);
-    if (albedo_) inputs[RPF_INPUT_ALBEDO + k] = rpf_held(value(albedo_), 0, 1);
-    if (!position_) continue;
-    const double off = is_hit_once ? record[(*position_)[k]] - positions.median[k] : 0;
+    const double off = is_hit ? record[(*position_)[k]] - positions.median[k] : 0;
     const float p = or_zero(static_cast<float>(off / positions.deviation));
     inputs[RPF_INPUT_POSITION + k] = rpf_held(p, -farthest_position, farthest_position);
   }
 }
 
-void RecordView::read_second_hit(const float* record, const PositionFacts& positions, float* inputs) const {
-  if (!normal2_) return;
-  const bool is_hit_again = is_second_hit(record);
-  inputs[RPF_INPUT_HIT2] = is_hit_again ? 1.0F : 0.0F;
-  for (std::size_t k = 0; k < 3; ++k)
-    inputs[RPF_INPUT_NORMAL2 + k] =
-        is_hit_again ? rpf_held(record[(*normal2_)[k]], -longest_normal, longest_normal) : 0.0F;
-  if (!position_ || !position2_) return;
-  inputs[RPF_INPUT_DISTANCE2] = 0;
-  if (!is_hit_again || !has_position(record) || !is_there(record, *position2_)) return;
+float RecordView::second_distance(const float* record, const PositionFacts& positions) const {
+  if (!is_there(record, *position_) || !is_there(record, *position2_)) return 0;
   double square = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const double d = static_cast<double>(record[(*position2_)[k]]) - record[(*position_)[k]];
     square += d * d;
   }
   const auto distance = static_cast<float>(std::sqrt(square) / positions.deviation);
-  inputs[RPF_INPUT_DISTANCE2] = kernel::rpf_log(1 + 4 * rpf_held(distance, 0, farthest_second_hit));
+  return kernel::rpf_log(1 + 4 * rpf_held(distance, 0, farthest_second_hit));
+}
+
+void RecordView::read_second_hit(const float* record, bool is_hit, const PositionFacts& positions,
+                                 float* inputs) const {
+  const bool is_hit_again = is_hit && is_second_hit(record);
+  inputs[RPF_INPUT_HIT2] = is_hit_again ? 1.0F : 0.0F;
+  for (std::size_t k = 0; k < 3; ++k)
+    inputs[RPF_INPUT_NORMAL2 + k] =
+        is_hit_again ? rpf_held(record[(*normal2_)[k]], -longest_normal, longest_normal) : 0.0F;
+  if (reads_[RPF_INPUT_DISTANCE2]) inputs[RPF_INPUT_DISTANCE2] = is_hit_again ? second_distance(record, positions) : 0;
 }
 
 void RecordView::read(const float* record, const PositionFacts& positions, float* inputs) const {
-  read_first_hit(record, positions, inputs);
-  read_second_hit(record, positions, inputs);
-  for (int input = RPF_INPUT_LENS; input < RPF_INPUTS; ++input) {
-    if (!random_[input]) continue;
-    const float u = record[*random_[input]];
-    const bool is_film = input == RPF_INPUT_FILM || input == RPF_INPUT_FILM + 1;
-    inputs[input] = centered(is_film ? u - std::floor(u) : u);
+  const bool is_hit = this->is_hit(record);
+  read_first_hit(record, is_hit, positions, inputs);
+  if (reads_any(RPF_INPUT_NORMAL2, RPF_INPUT_LENS - RPF_INPUT_NORMAL2))
+    read_second_hit(record, is_hit, positions, inputs);
+  for (const Number& n : numbers_) {
+    const float u = record[n.column] - n.origin;
+    inputs[n.input] = centered(n.is_film ? u - std::floor(u) : u);
   }
 }
 

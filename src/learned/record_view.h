@@ -1,12 +1,13 @@
-// Inputs of the network from the records of a prepared frame (docs/network.md, "Inputs of a sample").
+// Inputs of the network from the records of a cleaned frame (docs/network.md, "Inputs of a sample").
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "frame/frame.h"
-#include "frame/variables.h"
+#include "frame/clean_frame.h"
 #include "rpf_network.h"
 
 namespace rpf {
@@ -15,27 +16,44 @@ struct PositionFacts;
 
 class RecordView {
  public:
-  explicit RecordView(const Variables& variables);
+  /// Of the channels that the settings select.
+  explicit RecordView(const CleanFrame& clean);
 
   /// Whether the frame has what this input, from RPF_INPUT_NORMAL on, is made of.
   bool has(int input) const;
   bool has_position(const float* record) const;
   float position(const float* record, std::size_t component) const { return record[(*position_)[component]]; }
-  bool any_hit(const Frame& frame) const;
+  bool any_hit(const SampleBuffer& samples) const;
+  /// The same, that reads no other inputs than these, or others of their groups.
+  RecordView only(const std::vector<int>& inputs) const;
   /// The inputs from RPF_INPUT_NORMAL on that there are; the others are left as they are.
   void read(const float* record, const PositionFacts& positions, float* inputs) const;
 
  private:
   using Columns = std::optional<std::array<std::size_t, 3>>;  ///< of a group, where all three are there
 
+  /// An input that is a random number, or a position on the film less `origin`.
+  struct Number {
+    int input;
+    std::size_t column;
+    float origin;
+    bool is_film;
+  };
+
+  /// Whether any of so many inputs is wanted.
+  bool reads_any(int input, int count) const {
+    return std::any_of(reads_.begin() + input, reads_.begin() + input + count, [](bool reads) { return reads; });
+  }
   bool is_hit(const float* record) const;
-  bool is_second_hit(const float* record) const;
-  void read_first_hit(const float* record, const PositionFacts& positions, float* inputs) const;
-  void read_second_hit(const float* record, const PositionFacts& positions, float* inputs) const;
+  bool is_second_hit(const float* record) const;  ///< of a sample that is a hit
+  void read_first_hit(const float* record, bool is_hit, const PositionFacts& positions, float* inputs) const;
+  void read_second_hit(const float* record, bool is_hit, const PositionFacts& positions, float* inputs) const;
+  float second_distance(const float* record, const PositionFacts& positions) const;
 
   Columns normal_, albedo_, position_, normal2_, position2_;
   std::optional<std::size_t> hit_;
-  std::optional<std::size_t> random_[RPF_INPUTS];  ///< [input] of random parameters
+  std::vector<Number> numbers_;
+  std::array<bool, RPF_INPUTS> reads_ = {};
 };
 
 /// The input that a variable such as "N.X", "lens.U" or "hit" goes into; of those that go into several the first. -1:

@@ -87,6 +87,7 @@ SampleStage::Chunk SampleStage::chunk(int first, int end) const {
   const int row = first / w.width, end_row = (end - 1) / w.width + 1;
   const std::size_t from = frame.first_sample[in_frame(first)],
                     count = frame.first_sample[in_frame(end - 1) + 1] - from;
+  const std::size_t others = plan.carried - 3;
   const auto shared = [&](const auto* data, std::size_t number) {
     return session_.host_buffer(data, number * sizeof *data, CL_MEM_READ_ONLY);
   };
@@ -97,7 +98,7 @@ SampleStage::Chunk SampleStage::chunk(int first, int end) const {
        static_cast<std::uint32_t>(program_.feature_stride()), static_cast<int>(plan.carried)},
       count,
       shared(frame.record(from), count * frame.variables),
-      shared(job_.colors.data() + from * plan.carried, count * plan.carried),
+      others == 0 ? cl::Buffer() : shared(job_.others.data() + from * others, count * others),
       frame.weights.empty() ? cl::Buffer() : shared(frame.weights.data() + from, count),
       shared(frame.first_sample.data() + pixel(row, 0), pixel(end_row, 0) - pixel(row, 0) + 1)};
 }
@@ -171,7 +172,8 @@ void SampleStage::sum(int first, int end, const DeviceGrid& heads, const DeviceG
     launch(add_context_, heads.buffer, chunk.first_sample, features_, chunk.launch, heads.rows, heads.stored);
     run_layer(weight1, features_, weighed_, chunk.samples);
     launch(weigh_samples_, weighed_, program_.last_weights(), chunk.weights, weights_, chunk.launch);
-    launch(sum_samples_, weights_, seen_, chunk.colors, chunk.first_sample, sums.buffer, chunk.launch, sums.rows);
+    launch(sum_samples_, weights_, seen_, chunk.records, chunk.others, chunk.first_sample, sums.buffer, chunk.launch,
+           sums.rows);
     if (trace_ != nullptr) keep(trace_->weights, weights_, chunk.samples, 1, 1);
   });
 }

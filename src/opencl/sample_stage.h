@@ -20,7 +20,7 @@ struct DeviceGrid {
 /// What a backend was given to estimate.
 struct EstimateJob {
   const Frame& frame;
-  const std::vector<float>& colors;  ///< [sample][carried]
+  const std::vector<float>& others;  ///< [sample][carried - 3]: what is carried beside the color
   const EstimatePlan& plan;
   Window window;
 };
@@ -53,7 +53,7 @@ class SampleStage {
   struct Chunk {
     kernel::rpf_chunk launch;
     std::size_t samples;
-    cl::Buffer records, colors, weights, first_sample;
+    cl::Buffer records, others, weights, first_sample;
   };
 
   std::uint32_t samples(int pixel) const;

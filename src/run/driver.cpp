@@ -68,11 +68,13 @@ class Run {
     check_memory(samples, settings);
     backend_ = make_backend(settings);
     raw_ = {frame_size(samples), samples.layout, room_of(samples)};
-    prepared_ = prepare(std::move(samples), settings);
     if (settings.method == Method::learned) {
-      estimate_plan_ = observe(prepared_, find_network(settings.model));
+      Observed observed = observe(std::move(samples), settings, find_network(settings.model));
+      prepared_ = std::move(observed.prepared);
+      estimate_plan_ = std::move(observed.plan);
       return;
     }
+    prepared_ = prepare(std::move(samples), settings);
     if (settings.method == Method::rpf && settings.drop_uninformative) drop_uninformative(prepared_, settings);
     plan_ = make_plan(prepared_.facts, settings);
   }
@@ -107,7 +109,7 @@ class Run {
   Result estimate() {
     ProgressMeter meter(control_);
     const FrameFacts& facts = prepared_.facts;
-    const double plain_energy = energy(resolve(prepared_.frame, prepared_.colors, facts.carried), facts);
+    const double plain_energy = energy_of_means(prepared_.frame, facts.crop);
     get_ready_estimate(backend_, settings_, estimate_plan_, meter);
     const int band_rows = estimate_bands(raw_.size, raw_.layout, raw_.room, settings_, *backend_).rows;
     backend_->load_estimate(prepared_.frame, std::move(prepared_.colors), estimate_plan_);

@@ -27,14 +27,12 @@ EstimatePlan largest_plan(const FrameSize& size, const SampleLayout& layout, con
 std::uint64_t bytes_of_frame(const FrameSize& size, const SampleLayout& layout, std::uint64_t room,
                              const Settings& settings) {
   const Selection selection = select_channels(layout, settings);
-  const std::uint64_t raw =
-      Variables::random + selection.random.size() + selection.features.size() + (layout.find("feature.hit") ? 1 : 0);
-  // Inputs that a file has no channels for: whether there is a hit, and a second one.
-  const std::uint64_t records = raw + 2, read = layout.size(), carried = carried_count(layout, settings);
-  const std::uint64_t preparing = raw <= room ? std::max(read, raw) : read + raw;
-  const std::uint64_t observing = records <= std::max(room, raw) ? records : records + raw;
+  // Two inputs that a file has no channels for: whether there is a hit, and a second one.
+  const std::uint64_t records = Variables::random + selection.random.size() + selection.features.size() +
+                                (layout.find("feature.hit") ? 1 : 0) + 2;
+  const std::uint64_t read = layout.size(), carried = carried_count(layout, settings);
   const std::uint64_t weights = layout.find("weight") ? 1 : 0;
-  const std::uint64_t per_sample = std::max(preparing, observing) + carried + weights;
+  const std::uint64_t per_sample = (records <= room ? std::max(read, records) : read + records) + carried - 3 + weights;
   const std::uint64_t per_pixel = 1 + 3 * carried;  // offsets; plain mean or band, frame, image
   return word * (size.samples * per_sample + size.pixels * per_pixel);
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "frame/prepare.h"
+#include "frame/clean_frame.h"
 #include "frame/selection.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "frame/prepare.h"
 #include "learned/network_file.h"
 #include "learned/observe.h"
 #include "rpf/error.h"
@@ -46,8 +45,10 @@ int write_stages(const std::vector<std::string>& arguments) {
   settings.method = rpf::Method::learned;
   settings.model = arguments.at(1);
   if (const char* backend = std::getenv("RPF_BACKEND")) settings.backend = backend;
-  rpf::PreparedFrame prepared = rpf::prepare(rpf::read_samples(arguments.at(0), {}), settings);
-  const rpf::EstimatePlan plan = rpf::observe(prepared, rpf::find_network(settings.model));
+  const rpf::Observed observed =
+      rpf::observe(rpf::read_samples(arguments.at(0), {}), settings, rpf::find_network(settings.model));
+  const rpf::PreparedFrame& prepared = observed.prepared;
+  const rpf::EstimatePlan& plan = observed.plan;
   const std::unique_ptr<rpf::Backend> backend = rpf::make_backend(settings);
   backend->load_estimate(prepared.frame, prepared.colors, plan);
   Json all = {{"width", plan.width},

@@ -18,10 +18,7 @@ using test::value_of;
 
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
-struct Observed {
-  PreparedFrame prepared;
-  EstimatePlan plan;
-
+struct Seen : Observed {
   /// 0 where it has no column.
   float input(std::size_t sample, int number) const {
     const int column = plan.column[static_cast<std::size_t>(number)];
@@ -29,12 +26,9 @@ struct Observed {
   }
 };
 
-Observed observed(SampleBuffer samples, Settings settings = {}) {
+Seen observed(SampleBuffer samples, Settings settings = {}) {
   settings.method = Method::learned;
-  Observed o;
-  o.prepared = prepare(std::move(samples), settings);
-  o.plan = observe(o.prepared, std::make_shared<Network>(test::random_network()));
-  return o;
+  return {observe(std::move(samples), settings, std::make_shared<Network>(test::random_network()))};
 }
 
 /// Two pixels of two samples each, everything the same.
@@ -50,7 +44,7 @@ TEST(Exposure, BringsTheMeanLuminanceBetweenAQuarterAndAHalf) {
   for (const float radiance : {1e-20F, 0.1F, 1.0F, 3.0F, 1e20F}) {
     SampleBuffer samples = two_pixels();
     for (const char* slot : {"R", "G", "B"}) test::fill(samples, slot, radiance);
-    const Observed o = observed(samples);
+    const Seen o = observed(samples);
     const float seen = o.prepared.frame.record(0)[0] * o.plan.exposure;
     EXPECT_GE(seen, 0.25F) << radiance;
     EXPECT_LT(seen, 0.5F) << radiance;
@@ -64,7 +58,7 @@ TEST(Exposure, TakesAPixelForEightTimesTheMedianAtMost) {
     value_of(samples, 1, slot) = 1;
     value_of(samples, 2, slot) = 1000;  // counts as 8: the mean is 10/3
   }
-  const Observed o = observed(samples);
+  const Seen o = observed(samples);
   EXPECT_EQ(o.plan.exposure * o.prepared.facts.radiance_scale, 0.125F);
 }
 
@@ -75,7 +69,7 @@ TEST(Exposure, OfABlackFrameIsOne) {
 }
 
 TEST(Inputs, OfAFrameThatIsTheSameEverywhereAreNone) {
-  const Observed o = observed(two_pixels());
+  const Seen o = observed(two_pixels());
   EXPECT_THAT(o.plan.live, testing::ElementsAre(0, 1, 2, 3, 4, 5));
   EXPECT_TRUE(o.plan.has_albedo);
   EXPECT_EQ(o.input(0, RPF_INPUT_ALBEDO), 0.5F);  // a needs it
@@ -87,7 +81,7 @@ TEST(Inputs, OfRandomNumbersAreTwiceTheirDistanceToOneHalf) {
   value_of(samples, 1, "random.lens.V") = 0.75F;
   value_of(samples, 1, "random.time") = 0;
   value_of(samples, 2, "film.X") = 1.125F;
-  const Observed o = observed(samples);
+  const Seen o = observed(samples);
   EXPECT_THAT(o.plan.live, testing::ElementsAre(0, 1, 2, 3, 4, 5, RPF_INPUT_LENS + 1, RPF_INPUT_TIME, RPF_INPUT_FILM));
   EXPECT_EQ(o.input(1, RPF_INPUT_LENS + 1), 0.5F);
   EXPECT_EQ(o.input(1, RPF_INPUT_TIME), -1.0F);
@@ -107,7 +101,7 @@ TEST(Inputs, OfPositionsAreRelativeToMedianAndDeviation) {
     value_of(samples, i, "feature.N2.Y") = value_of(samples, i, "feature.N2.Z") = 0;
   }
   const double d = 101.0 / 15;
-  const Observed o = observed(samples);
+  const Seen o = observed(samples);
   EXPECT_NEAR(o.input(0, RPF_INPUT_POSITION), -2 / d, test::tolerance::formula);
   EXPECT_EQ(o.input(4, RPF_INPUT_POSITION), 4.0F);
   EXPECT_NEAR(o.input(0, RPF_INPUT_DISTANCE2), std::log(1 + 4 * 5 / d), test::tolerance::formula);
@@ -123,7 +117,7 @@ TEST(Inputs, OfAMissedRayAndOfMissingValuesAreZero) {
     if (is_feature_slot(slot) || is_random_slot(slot)) value_of(samples, 3, slot) = missing;
   value_of(samples, 3, "feature.hit") = 0;
   value_of(samples, 0, "feature.N.Y") = 0.5F;  // of the others 0
-  const Observed o = observed(samples);
+  const Seen o = observed(samples);
   for (int input = RPF_INPUT_NORMAL; input < RPF_INPUTS; ++input) {
     if (input == RPF_INPUT_FILM || input == RPF_INPUT_FILM + 1) continue;
     EXPECT_TRUE(o.plan.is_live(input)) << input;
@@ -135,7 +129,7 @@ TEST(Inputs, OfAMissAreFoundByTheNormalWithoutAHitChannel) {
   SampleBuffer samples = test::defocused_edge({4, 4, 2, 1});
   for (const char* slot : {"feature.N.X", "feature.N.Y", "feature.N.Z"}) value_of(samples, 1, slot) = 0;
   value_of(samples, 2, "feature.N.Y") = missing;
-  const Observed o = observed(samples);
+  const Seen o = observed(samples);
   EXPECT_EQ(o.input(0, RPF_INPUT_MISS), 0.0F);
   EXPECT_EQ(o.input(1, RPF_INPUT_MISS), 1.0F);
   EXPECT_EQ(o.input(2, RPF_INPUT_MISS), 1.0F);
@@ -143,7 +137,7 @@ TEST(Inputs, OfAMissAreFoundByTheNormalWithoutAHitChannel) {
 }
 
 TEST(Inputs, OfAnIncompleteGroupAreAbsent) {
-  const Observed o = observed(test::defocused_edge({4, 4, 2, 1}));  // albedo.R alone
+  const Seen o = observed(test::defocused_edge({4, 4, 2, 1}));  // albedo.R alone
   EXPECT_FALSE(o.plan.has_albedo);
   EXPECT_EQ(o.plan.column[RPF_INPUT_ALBEDO], -1);
   EXPECT_THAT(o.prepared.dropped, testing::Contains("albedo.R"));
@@ -153,7 +147,7 @@ TEST(Inputs, AreThoseOfTheSettingsGroups) {
   Settings settings;
   settings.features = std::vector<std::string>{"albedo"};
   settings.random = std::vector<std::string>{};
-  const Observed o = observed(test::every_input({4, 4, 2, 1}), settings);
+  const Seen o = observed(test::every_input({4, 4, 2, 1}), settings);
   for (const int input : o.plan.live)
     EXPECT_TRUE(input < 6 || (input >= RPF_INPUT_ALBEDO && input < RPF_INPUT_ALBEDO + 3) || input == RPF_INPUT_MISS ||
                 input == RPF_INPUT_FILM || input == RPF_INPUT_FILM + 1)
@@ -164,7 +158,7 @@ TEST(Inputs, AreFiniteForTheLargestValuesThereAre) {
   SampleBuffer samples = test::every_input({4, 4, 2, 1});
   for (const std::string& slot : samples.layout.slots)
     if (is_feature_slot(slot) || is_random_slot(slot)) value_of(samples, 3, slot) = slot.back() == 'Y' ? -1e15F : 1e15F;
-  const Observed o = observed(samples);
+  const Seen o = observed(samples);
   for (const float v : o.prepared.frame.records) EXPECT_TRUE(std::isfinite(v));
   for (int input = RPF_INPUT_NORMAL; input < RPF_INPUTS; ++input) EXPECT_LE(std::fabs(o.input(3, input)), 40.0F);
 }
@@ -173,7 +167,7 @@ TEST(WeightScale, BringsTheLargestWeightBetweenOneAndTwo) {
   SampleBuffer samples = two_pixels();
   test::add_channel(samples, "weight", 1e-3F);
   value_of(samples, 2, "weight") = 1e10F;
-  const Observed o = observed(samples);
+  const Seen o = observed(samples);
   EXPECT_GE(1e10F * o.plan.weight_scale, 1.0F);
   EXPECT_LT(1e10F * o.plan.weight_scale, 2.0F);
 }

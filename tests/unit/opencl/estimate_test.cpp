@@ -105,13 +105,14 @@ TEST(EstimateSteps, DoNotMakeWhatACropDoesNotNeed) {
 class DeviceEstimate {
  public:
   DeviceEstimate(const OpenClOptions& options, const std::vector<int>& channels)
-      : prepared_(prepare(test::every_input({37, 29, 0, 1}), settings())),
-        plan_(observe(prepared_, random_network(3, 12, channels, 5))),
+      : observed_(observe(test::every_input({37, 29, 0, 1}), settings(), random_network(3, 12, channels, 5))),
         device_(options) {
-    device_.load_estimate(prepared_.frame, prepared_.colors, plan_);
+    device_.load_estimate(observed_.prepared.frame, observed_.prepared.colors, observed_.plan);
   }
 
-  std::vector<float> run(const EstimateProgress& progress) { return device_.estimate(prepared_.facts.crop, progress); }
+  std::vector<float> run(const EstimateProgress& progress) {
+    return device_.estimate(observed_.prepared.facts.crop, progress);
+  }
 
  private:
   static Settings settings() {
@@ -120,8 +121,7 @@ class DeviceEstimate {
     return s;
   }
 
-  PreparedFrame prepared_;
-  EstimatePlan plan_;
+  Observed observed_;
   OpenClBackend device_;
 };
 

@@ -1,0 +1,116 @@
+#include "frame/clean_frame.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "rpf/error.h"
+#include "rpf/filter.h"
+#include "rpf/outputs.h"
+
+namespace rpf {
+namespace {
+
+/// The brightest value of the frame is brought to [2^40, 2^41): squares and sums of millions of them stay finite, and
+/// values 2^-166 times as bright are still normal numbers.
+constexpr int brightest_exponent = 40;
+
+/// The power of two that brings the brightest value to [2^40, 2^41); 1 for a black frame.
+float radiance_scale(const SampleBuffer& samples, const Columns& columns) {
+  float brightest = 0;
+  for (std::size_t i = 0; i < samples.sample_count(); ++i)
+    for (const std::size_t c : columns.color) brightest = std::max(brightest, std::fabs(samples.record(i)[c]));
+  // The scale itself must be a normal float whose inverse is one too, also for subnormal radiance.
+  return brightest > 0 ? std::ldexp(1.0F, std::clamp(brightest_exponent - std::ilogb(brightest), -126, 126)) : 1.0F;
+}
+
+/// Distances on the film need a position: a sample that has none is in the middle of its pixel.
+void center_missing_positions(SampleBuffer& samples, const Columns& columns) {
+  const Window& w = samples.data_window;
+  for (std::size_t pixel = 0; pixel < w.pixel_count(); ++pixel)
+    for (std::uint32_t i = samples.first_sample[pixel]; i < samples.first_sample[pixel + 1]; ++i) {
+      const int place[2] = {w.x + static_cast<int>(pixel) % w.width, w.y + static_cast<int>(pixel) / w.width};
+      for (int axis = 0; axis < 2; ++axis) {
+        float& value = samples.record(i)[columns.film[axis]];
+        if (std::isnan(value)) value = static_cast<float>(place[axis]) + 0.5F;
+      }
+    }
+}
+
+/// What is averaged beside the color: alpha where the file has it, all features where they are wanted.
+std::vector<std::size_t> carried_columns(const SampleLayout& layout, const Columns& columns, const Settings& settings,
+                                         std::vector<std::string>& names) {
+  std::vector<std::size_t> carried;
+  names = {"R", "G", "B"};
+  if (columns.alpha) {
+    carried.push_back(*columns.alpha);
+    names.emplace_back("A");
+  }
+  for (std::size_t c = 0; settings.filter_features && c < layout.size(); ++c) {
+    if (!is_feature_slot(layout.slots[c])) continue;
+    carried.push_back(c);
+    names.push_back(short_name(layout.slots[c]));
+  }
+  return carried;
+}
+
+std::vector<float> sample_weights(const SampleBuffer& samples, const Columns& columns) {
+  std::vector<float> weights;
+  for (std::size_t i = 0; columns.weight && i < samples.sample_count(); ++i)
+    weights.push_back(samples.record(i)[*columns.weight]);
+  return weights;
+}
+
+/// The crop in frame coordinates; the whole frame without one.
+Window wanted_region(const Window& data_window, const std::optional<Window>& crop) {
+  const Window c = crop.value_or(data_window);
+  check_crop(c, data_window);
+  return {c.x - data_window.x, c.y - data_window.y, c.width, c.height};
+}
+
+}  // namespace
+
+void check_crop(const Window& crop, const Window& data_window) {
+  const std::int64_t x = std::int64_t{crop.x} - data_window.x, y = std::int64_t{crop.y} - data_window.y;
+  const bool inside = x >= 0 && y >= 0 && crop.width > 0 && crop.height > 0 && x + crop.width <= data_window.width &&
+                      y + crop.height <= data_window.height;
+  if (!inside)
+    throw Error(ErrorKind::usage, fmt::format("--crop {} is not inside the data window {}; choose a part of it",
+                                              text_of(crop), text_of(data_window)));
+}
+
+std::uint32_t most_samples(const std::vector<std::uint32_t>& first_sample) {
+  std::uint32_t most = 0;
+  for (std::size_t p = 0; p + 1 < first_sample.size(); ++p)
+    most = std::max(most, first_sample[p + 1] - first_sample[p]);
+  return most;
+}
+
+std::string short_name(const std::string& slot) {
+  return is_random_slot(slot) || is_feature_slot(slot) ? slot.substr(slot.find('.') + 1) : slot;
+}
+
+CleanFrame clean_frame(SampleBuffer samples, const Settings& settings) {
+  CleanFrame clean;
+  PreparedFrame& prepared = clean.prepared;
+  clean.columns = find_columns(samples, settings.clamp_infinite);
+  clean.selection = select_channels(samples.layout, settings);
+  prepared.facts.crop = wanted_region(samples.data_window, settings.crop);
+  prepared.notes = check_conventions(samples);
+  CleanReport report = rpf::clean(samples, clean.columns, settings.clamp_negative);
+  std::move(report.notes.begin(), report.notes.end(), std::back_inserter(prepared.notes));
+  if (report.lacks_positions && settings.method != Method::rpf) center_missing_positions(samples, clean.columns);
+  prepared.facts.radiance_scale = radiance_scale(samples, clean.columns);
+  clean.carried = carried_columns(samples.layout, clean.columns, settings, prepared.carried_names);
+  prepared.facts.carried = prepared.carried_names.size();
+  prepared.frame.width = prepared.facts.width = samples.data_window.width;
+  prepared.frame.height = prepared.facts.height = samples.data_window.height;
+  prepared.frame.weights = sample_weights(samples, clean.columns);
+  prepared.facts.max_samples_per_pixel = most_samples(samples.first_sample);
+  clean.samples = std::move(samples);
+  return clean;
+}
+
+}  // namespace rpf
