@@ -123,14 +123,13 @@ std::vector<float> carried_values(const CleanFrame& clean) {
 
 /// The selected channels by name: those of inputs that vary, and the others.
 void sort_names(const CleanFrame& clean, const EstimatePlan& plan, PreparedFrame& prepared) {
-  const auto sort = [&](const std::vector<std::string>& slots, std::vector<std::string>& used) {
-    for (const std::string& slot : slots)
-      (plan.is_live(input_of(short_name(slot))) ? used : prepared.dropped).push_back(short_name(slot));
+  const auto sort = [&](const std::string& name, std::vector<std::string>& used) {
+    (plan.is_live(input_of(name)) ? used : prepared.dropped).push_back(name);
   };
-  std::vector<std::string> features = clean.selection.features;
-  if (clean.columns.hit) features.emplace_back("feature.hit");
-  sort(clean.selection.random, prepared.facts.variables.random_names);
-  sort(features, prepared.facts.variables.feature_names);
+  Variables& names = prepared.facts.variables;
+  for (const std::string& slot : clean.selection.random) sort(short_name(slot), names.random_names);
+  for (const std::string& slot : clean.selection.features) sort(short_name(slot), names.feature_names);
+  if (clean.columns.hit) sort("hit", names.feature_names);
 }
 
 }  // namespace
