@@ -92,6 +92,19 @@ std::string short_name(const std::string& slot) {
   return is_random_slot(slot) || is_feature_slot(slot) ? slot.substr(slot.find('.') + 1) : slot;
 }
 
+std::vector<float> carried_values(const CleanFrame& clean, bool with_color) {
+  const float scale = clean.prepared.facts.radiance_scale;
+  const std::size_t count = clean.samples.sample_count(), width = clean.carried.size() + (with_color ? 3 : 0);
+  std::vector<float> values;
+  values.reserve(count * width);
+  for (std::size_t i = 0; width > 0 && i < count; ++i) {
+    const float* record = clean.samples.record(i);
+    for (std::size_t k = 0; with_color && k < 3; ++k) values.push_back(record[clean.columns.color[k]] * scale);
+    for (const std::size_t c : clean.carried) values.push_back(std::isnan(record[c]) ? 0.0F : record[c]);
+  }
+  return values;
+}
+
 CleanFrame clean_frame(SampleBuffer samples, const Settings& settings) {
   CleanFrame clean;
   PreparedFrame& prepared = clean.prepared;

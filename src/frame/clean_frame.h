@@ -1,7 +1,6 @@
 // A frame before its records are made: what preparing begins with, whatever the method.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -28,8 +27,9 @@ CleanFrame clean_frame(SampleBuffer samples, const Settings& settings);
 /// "lens.U" of the slot "random.lens.U".
 std::string short_name(const std::string& slot);
 
-/// What is averaged of a value that may be missing: then there is nothing to average.
-inline float carried_value(float value) { return std::isnan(value) ? 0.0F : value; }
+/// What is averaged, sample by sample: the scaled color where it is wanted, then CleanFrame::carried; 0 for a value
+/// that is missing, which has nothing to average.
+std::vector<float> carried_values(const CleanFrame& clean, bool with_color);
 
 /// The largest number of samples in one pixel.
 std::uint32_t most_samples(const std::vector<std::uint32_t>& first_sample);

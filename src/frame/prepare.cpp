@@ -75,19 +75,6 @@ void keep_varying(const SampleBuffer& samples, const std::vector<std::string>& s
   }
 }
 
-/// c' before the first pass: the scaled color, then what else is averaged.
-std::vector<float> carried_values(const CleanFrame& clean) {
-  const float scale = clean.prepared.facts.radiance_scale;
-  std::vector<float> values;
-  values.reserve(clean.samples.sample_count() * clean.prepared.facts.carried);
-  for (std::size_t i = 0; i < clean.samples.sample_count(); ++i) {
-    const float* record = clean.samples.record(i);
-    for (const std::size_t c : clean.columns.color) values.push_back(record[c] * scale);
-    for (const std::size_t c : clean.carried) values.push_back(carried_value(record[c]));
-  }
-  return values;
-}
-
 }  // namespace
 
 PreparedFrame prepare(SampleBuffer read, const Settings& settings) {
@@ -106,7 +93,7 @@ PreparedFrame prepare(SampleBuffer read, const Settings& settings) {
   keep_varying(samples, clean.selection.random, variables, names.random_names, result.dropped);
   keep_varying(samples, clean.selection.features, variables, names.feature_names, result.dropped);
 
-  result.colors = carried_values(clean);
+  result.colors = carried_values(clean, true);
   Frame& frame = result.frame;
   frame.variables = variables.size();
   frame.records = repack(samples, variables.size(), [&](const float* record, float* to) {

@@ -112,15 +112,6 @@ std::vector<int> plan_columns(EstimatePlan& plan, const std::vector<int>& inputs
   return columns;
 }
 
-/// What is carried beside the color: [sample][carried - 3].
-std::vector<float> carried_values(const CleanFrame& clean) {
-  std::vector<float> values;
-  values.reserve(clean.samples.sample_count() * clean.carried.size());
-  for (std::size_t i = 0; !clean.carried.empty() && i < clean.samples.sample_count(); ++i)
-    for (const std::size_t c : clean.carried) values.push_back(carried_value(clean.samples.record(i)[c]));
-  return values;
-}
-
 /// The selected channels by name: those of inputs that vary, and the others.
 void sort_names(const CleanFrame& clean, const EstimatePlan& plan, PreparedFrame& prepared) {
   const auto sort = [&](const std::string& name, std::vector<std::string>& used) {
@@ -151,7 +142,7 @@ Observed observe(SampleBuffer samples, const Settings& settings, std::shared_ptr
   const std::vector<int> columns = plan_columns(plan, inputs, constant_inputs(clean.samples, view, positions, inputs));
   sort_names(clean, plan, clean.prepared);
 
-  clean.prepared.colors = carried_values(clean);
+  clean.prepared.colors = carried_values(clean, false);
   Frame& frame = clean.prepared.frame;
   frame.variables = 3 + columns.size();
   const RecordView wanted = view.only(columns);
