@@ -1,11 +1,11 @@
 #include "cli/explain_pages.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <filesystem>
 
 #include "cli/explain_maps.h"
+#include "cli/print.h"
 #include "report/html_page.h"
 #include "report/picture.h"
 #include "rpf/io.h"
@@ -19,10 +19,6 @@ constexpr int least_picture = 340;  ///< CSS pixels
 
 std::string path_in(const std::string& folder, const std::string& file) { return (fs::path(folder) / file).string(); }
 
-std::string list(const std::vector<std::string>& names) {
-  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
-}
-
 report::Table settings_table(const std::string& input, const Explanation& explanation) {
   const Report& report = explanation.report;
   const PassReport& pass = report.passes.front();
@@ -30,9 +26,9 @@ report::Table settings_table(const std::string& input, const Explanation& explan
       {"what", "value"},
       {{"file", fs::path(input).filename().string()},
        {"pixels", fmt::format("{} x {}", explanation.layers.data_window.width, explanation.layers.data_window.height)},
-       {"random parameters", list(report.random)},
-       {"features", list(report.features)},
-       {"constant, not modeled", list(report.dropped)},
+       {"random parameters", listed(report.random)},
+       {"features", listed(report.features)},
+       {"constant, not modeled", listed(report.dropped)},
        {"box width of the pass", fmt::format("{}", pass.box_width)},
        {"backend", report.backend}},
       2};

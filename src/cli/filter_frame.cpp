@@ -1,7 +1,6 @@
 #include "cli/filter_frame.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -20,10 +19,6 @@
 namespace rpf::cli {
 namespace {
 
-std::string list(const std::vector<std::string>& names) {
-  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
-}
-
 /// The need; more than the limit is refused before anything is read.
 std::uint64_t check_budget(const FilterInput& input, const Settings& settings, bool tell, bool has_page) {
   const auto need = std::max(
@@ -37,7 +32,7 @@ std::uint64_t check_budget(const FilterInput& input, const Settings& settings, b
 
 /// What a pass with fixed weights did.
 void print_fixed_weights(const Report& report, Method method) {
-  print("backend {}\nmethod: {}\nfeatures: {}\n", report.backend, name_of(method), list(report.features));
+  print("backend {}\nmethod: {}\nfeatures: {}\n", report.backend, name_of(method), listed(report.features));
   print("{:>4} {:>4} {:>9} {:>7} {:>8}\n", "pass", "box", "neighbors", "energy", "seconds");
   for (std::size_t i = 0; i < report.passes.size(); ++i) {
     const PassReport& p = report.passes[i];
@@ -47,16 +42,16 @@ void print_fixed_weights(const Report& report, Method method) {
 
 void print_learned(const Report& report) {
   print("backend {}\nnetwork: {} ({})\nrandom parameters: {}\nfeatures: {}\n", report.backend, report.model,
-        report.model_hash, list(report.random), list(report.features));
-  if (!report.dropped.empty()) print("constant, not looked at: {}\n", list(report.dropped));
+        report.model_hash, listed(report.random), listed(report.features));
+  if (!report.dropped.empty()) print("constant, not looked at: {}\n", listed(report.dropped));
   print("energy {:.4f}\n", report.passes.front().energy);
 }
 
 void print_published(const Report& report) {
-  print("backend {}\nrandom parameters: {}\nfeatures: {}\n", report.backend, list(report.random),
-        list(report.features));
-  if (!report.dropped.empty()) print("constant, not modeled: {}\n", list(report.dropped));
-  if (!report.uninformative.empty()) print("without information, not modeled: {}\n", list(report.uninformative));
+  print("backend {}\nrandom parameters: {}\nfeatures: {}\n", report.backend, listed(report.random),
+        listed(report.features));
+  if (!report.dropped.empty()) print("constant, not modeled: {}\n", listed(report.dropped));
+  if (!report.uninformative.empty()) print("without information, not modeled: {}\n", listed(report.uninformative));
   print("{:>4} {:>4} {:>9} {:>11} {:>6} {:>6} {:>6} {:>7} {:>8}\n", "pass", "box", "neighbors", "acceptance", "W",
         "alpha", "beta", "energy", "seconds");
   for (std::size_t i = 0; i < report.passes.size(); ++i) {
@@ -84,7 +79,7 @@ std::vector<PlannedOutput> planned_outputs(const FilterOptions& options, const F
   if (options.aov.empty()) return outputs;
   std::vector<std::string> features;
   for (const std::string& slot : needed_layout(info, settings).slots)
-    if (is_feature_slot(slot)) features.push_back(slot.substr(slot.find('.') + 1));
+    if (is_feature_slot(slot)) features.push_back(name_in_group(slot));
   for (const PlannedOutput& file : planned_features(options.aov, features, window)) outputs.push_back(file);
   return outputs;
 }

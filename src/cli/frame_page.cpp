@@ -25,10 +25,6 @@ namespace fs = std::filesystem;
 
 std::string name_of_file(const std::string& path) { return fs::path(path).filename().string(); }
 
-std::string list(const std::vector<std::string>& names) {
-  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
-}
-
 std::string in_megabytes(std::uint64_t bytes) {
   return fmt::format("{:.0f} MB", static_cast<double>(bytes) / megabyte);
 }
@@ -109,12 +105,13 @@ class FramePage {
     Image rgb = image;
     rgb.channels = {"R", "G", "B"};
     rgb.pixels.clear();
+    std::vector<std::size_t> channels;
+    for (const std::string& name : rgb.channels) {
+      channels.push_back(channel_of(image, name));
+      if (channels.back() == image.channel_count()) throw Error(ErrorKind::input, "it has no channel " + name);
+    }
     for (std::size_t p = 0; p < image.data_window.pixel_count(); ++p)
-      for (const std::string& name : rgb.channels) {
-        const std::size_t channel = channel_of(image, name);
-        if (channel == image.channel_count()) throw Error(ErrorKind::input, "it has no channel " + name);
-        rgb.pixels.push_back(image.pixel(p)[channel]);
-      }
+      for (const std::size_t channel : channels) rgb.pixels.push_back(image.pixel(p)[channel]);
     return rgb;
   }
 
@@ -247,8 +244,8 @@ class FramePage {
     const SampleFileInfo& info = input_.info;
     std::vector<std::string> random, features;
     for (const SampleFileChannel& channel : info.channels) {
-      if (is_random_slot(channel.slot)) random.push_back(channel.slot.substr(channel.slot.find('.') + 1));
-      if (is_feature_slot(channel.slot)) features.push_back(channel.slot.substr(channel.slot.find('.') + 1));
+      if (is_random_slot(channel.slot)) random.push_back(name_in_group(channel.slot));
+      if (is_feature_slot(channel.slot)) features.push_back(name_in_group(channel.slot));
     }
     page_.table({{"what", "value"},
                  {{"file", name_of_file(info.path)},
@@ -258,8 +255,8 @@ class FramePage {
                                           ? fmt::format("{}", info.min_samples)
                                           : fmt::format("{} to {}", info.min_samples, info.max_samples)},
                   {"pixels without samples", fmt::format("{}", info.empty_pixels)},
-                  {"random parameters", list(random)},
-                  {"features", list(features)}},
+                  {"random parameters", listed(random)},
+                  {"features", listed(features)}},
                  2});
     add_notes(job_.run ? job_.run->report.notes : noise_.notes);
   }

@@ -15,6 +15,8 @@ SampleLayout needed_layout(const SampleFileInfo& info, const Settings& settings)
   return {needed_slots(all, settings)};
 }
 
+std::string name_in_group(const std::string& slot) { return slot.substr(slot.find('.') + 1); }
+
 FrameSize frame_size(const SampleFileInfo& info) {
   return {info.data_window.pixel_count(), info.sample_count, info.max_samples, info.data_window.width};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "rpf/filter.h"
 #include "rpf/io.h"
@@ -11,6 +12,9 @@ namespace rpf::cli {
 
 /// The slots of a file that filtering with these settings reads. Throws Error(usage) for a group that is not there.
 SampleLayout needed_layout(const SampleFileInfo& info, const Settings& settings);
+
+/// "N.X" of the slot "feature.N.X".
+std::string name_in_group(const std::string& slot);
 
 FrameSize frame_size(const SampleFileInfo& info);
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <vector>
 
 #include "rpf/filter.h"
 
@@ -12,6 +13,9 @@ namespace rpf::cli {
 
 /// The unit of the sizes that are told.
 constexpr double megabyte = 1 << 20;
+
+/// Names side by side, as in "N.X N.Y"; "none" where there are none.
+std::string listed(const std::vector<std::string>& names);
 
 /// Opens /dev/null for the standard streams that are closed, or else the first files to be opened would take their
 /// numbers and receive what is printed.

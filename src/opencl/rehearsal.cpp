@@ -72,9 +72,10 @@ void rehearse(Session& session, const std::string& file, const std::string& defi
     cl::Program program = session.compile(file, definitions, more);
     std::vector<cl::Kernel> kernels;
     program.createKernels(&kernels);
+    const std::string text = kernel_source(file) + more;
     const cl::Buffer zeros = session.copy(std::vector<char>(buffer_bytes, 0));
     for (cl::Kernel& kernel : kernels) {
-      set_arguments(kernel, kernel_source(file) + more, zeros);
+      set_arguments(kernel, text, zeros);
       session.launch(kernel, 1, 1);
     }
     prune_programs();
