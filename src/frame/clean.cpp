@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
 #include <limits>
 #include <utility>
 
+#include "frame/conventions.h"
 #include "frame/lost_pixels.h"
 #include "frame/tally.h"
 #include "frame/variables.h"
@@ -31,6 +35,7 @@ struct Findings {
   Tally infinite, not_finite, no_weight, negative, alpha, empty, lost;
   Tally missing;                      ///< samples
   std::vector<char> missing_columns;  ///< [column] of these
+  float brightest = 0;
 };
 
 /// Overflowed light is the largest that its type holds, not none.
@@ -52,6 +57,19 @@ bool is_usable(const float* record, const Columns& columns, Findings& findings, 
   if (!columns.weight || (record[*columns.weight] >= 0 && record[*columns.weight] <= largest_value)) return true;
   findings.no_weight.add(pixel);
   return false;
+}
+
+/// Whether nothing in a record needs a closer look. Compares bits, all of them, in vectors: most records are like that.
+bool is_plain(const float* record, std::size_t size, const Columns& columns) {
+  std::int32_t limit, bits, beyond = 0;
+  std::memcpy(&limit, &largest_value, sizeof limit);
+  for (std::size_t c = 0; c < size; ++c) {
+    std::memcpy(&bits, record + c, sizeof bits);
+    beyond |= (bits & std::numeric_limits<std::int32_t>::max()) > limit ? 1 : 0;
+  }
+  const auto is_negative = [&](std::size_t c) { return record[c] < 0; };
+  return beyond == 0 && std::none_of(std::begin(columns.color), std::end(columns.color), is_negative) &&
+         !(columns.weight && is_negative(*columns.weight));
 }
 
 bool is_missing(float value) { return !(std::fabs(value) <= largest_value); }
@@ -138,9 +156,12 @@ std::uint32_t keep_samples(SampleBuffer& samples, std::uint32_t begin, std::uint
   std::uint32_t count = 0;
   for (std::uint32_t sample = begin; sample < end; ++sample) {
     float* record = samples.record(sample);
-    take_infinite(record, columns, findings, pixel);
-    if (!is_usable(record, columns, findings, pixel)) continue;
-    clean_record(record, columns, clamp_negative, findings, pixel);
+    if (!is_plain(record, stride, columns)) {
+      take_infinite(record, columns, findings, pixel);
+      if (!is_usable(record, columns, findings, pixel)) continue;
+      clean_record(record, columns, clamp_negative, findings, pixel);
+    }
+    for (const std::size_t c : columns.color) findings.brightest = std::max(findings.brightest, std::fabs(record[c]));
     if (sample != kept + count) std::copy(record, record + stride, samples.record(kept + count));
     ++count;
   }
@@ -185,9 +206,11 @@ Columns find_columns(const SampleBuffer& samples, bool clamp_infinite) {
 CleanReport clean(SampleBuffer& samples, const Columns& columns, bool clamp_negative) {
   Findings findings;
   findings.missing_columns.resize(samples.layout.size());
+  Conventions conventions(samples);
   std::vector<std::size_t> lost;
   std::uint32_t kept = 0;
   for (std::size_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel) {
+    conventions.add(samples, pixel);
     const std::uint32_t begin = std::exchange(samples.first_sample[pixel], kept), end = samples.first_sample[pixel + 1];
     const std::uint64_t lost_before = findings.lost.count;
     kept += keep_samples(samples, begin, end, kept, columns, clamp_negative, findings, pixel);
@@ -204,7 +227,10 @@ CleanReport clean(SampleBuffer& samples, const Columns& columns, bool clamp_nega
   samples.values.resize(kept * samples.layout.size());
   const bool lacks_positions = std::any_of(std::begin(columns.film), std::end(columns.film),
                                            [&](std::size_t c) { return findings.missing_columns[c] != 0; });
-  return {notes_of(findings, samples, clamp_negative), lacks_positions};
+  CleanReport report{conventions.notes(samples.data_window), lacks_positions, findings.brightest};
+  std::vector<InputNote> found = notes_of(findings, samples, clamp_negative);
+  std::move(found.begin(), found.end(), std::back_inserter(report.notes));
+  return report;
 }
 
 }  // namespace rpf

@@ -31,12 +31,13 @@ Columns find_columns(const SampleBuffer& samples, bool clamp_infinite);
 struct CleanReport {
   std::vector<InputNote> notes;  ///< what was found, and where first
   bool lacks_positions = false;  ///< whether a film position is missing
+  float brightest = 0;           ///< the largest magnitude of R, G, B
 };
 
 /// Takes infinite radiance for the largest value of its type where Columns::largest says so, leaves out samples whose
 /// color is not finite or whose weight is none, and marks unusable features, random parameters and film positions as
 /// missing (NaN). A pixel that loses all its samples keeps them, in the color of its neighbors and with weight 1. The
-/// buffer shrinks in place.
+/// buffer shrinks in place. Contradictions of the conventions are noted on the way, of the samples as they were.
 CleanReport clean(SampleBuffer& samples, const Columns& columns, bool clamp_negative);
 
 }  // namespace rpf

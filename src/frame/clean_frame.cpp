@@ -18,10 +18,7 @@ namespace {
 constexpr int brightest_exponent = 40;
 
 /// The power of two that brings the brightest value to [2^40, 2^41); 1 for a black frame.
-float radiance_scale(const SampleBuffer& samples, const Columns& columns) {
-  float brightest = 0;
-  for (std::size_t i = 0; i < samples.sample_count(); ++i)
-    for (const std::size_t c : columns.color) brightest = std::max(brightest, std::fabs(samples.record(i)[c]));
+float radiance_scale(float brightest) {
   // The scale itself must be a normal float whose inverse is one too, also for subnormal radiance.
   return brightest > 0 ? std::ldexp(1.0F, std::clamp(brightest_exponent - std::ilogb(brightest), -126, 126)) : 1.0F;
 }
@@ -111,11 +108,10 @@ CleanFrame clean_frame(SampleBuffer samples, const Settings& settings) {
   clean.columns = find_columns(samples, settings.clamp_infinite);
   clean.selection = select_channels(samples.layout, settings);
   prepared.facts.crop = wanted_region(samples.data_window, settings.crop);
-  prepared.notes = check_conventions(samples);
   CleanReport report = rpf::clean(samples, clean.columns, settings.clamp_negative);
-  std::move(report.notes.begin(), report.notes.end(), std::back_inserter(prepared.notes));
+  prepared.notes = std::move(report.notes);
   if (report.lacks_positions && settings.method != Method::rpf) center_missing_positions(samples, clean.columns);
-  prepared.facts.radiance_scale = radiance_scale(samples, clean.columns);
+  prepared.facts.radiance_scale = radiance_scale(report.brightest);
   clean.carried = carried_columns(samples.layout, clean.columns, settings, prepared.carried_names);
   prepared.facts.carried = prepared.carried_names.size();
   prepared.frame.width = prepared.facts.width = samples.data_window.width;

@@ -88,17 +88,23 @@ std::vector<std::size_t> columns_of(const SampleLayout& layout, const std::strin
   return columns;
 }
 
-std::vector<InputNote> check_conventions(const SampleBuffer& samples) {
-  ConventionChecks checks;
-  add_film_check(samples, checks);
-  checks.push_back(std::make_unique<RandomCheck>(samples.layout));
-  add_surface_checks(samples, checks);
-  checks.push_back(std::make_unique<CopyCheck>());
-  for (std::size_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel)
-    for (const auto& check : checks) check->add(samples, pixel);
+Conventions::Conventions(const SampleBuffer& samples) {
+  add_film_check(samples, checks_);
+  checks_.push_back(std::make_unique<RandomCheck>(samples.layout));
+  add_surface_checks(samples, checks_);
+  checks_.push_back(std::make_unique<CopyCheck>());
+}
+
+std::vector<InputNote> Conventions::notes(const Window& data_window) const {
   std::vector<InputNote> notes;
-  for (const auto& check : checks) check->tell(samples.data_window, notes);
+  for (const auto& check : checks_) check->tell(data_window, notes);
   return notes;
+}
+
+std::vector<InputNote> check_conventions(const SampleBuffer& samples) {
+  Conventions conventions(samples);
+  for (std::size_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel) conventions.add(samples, pixel);
+  return conventions.notes(samples.data_window);
 }
 
 }  // namespace rpf

@@ -35,6 +35,22 @@ class SampleCheck : public ConventionCheck {
 
 using ConventionChecks = std::vector<std::unique_ptr<ConventionCheck>>;
 
+/// All checks of a frame.
+class Conventions {
+ public:
+  explicit Conventions(const SampleBuffer& samples);
+
+  /// To be called for every pixel, in ascending order, before its samples are changed.
+  void add(const SampleBuffer& samples, std::size_t pixel) {
+    for (const auto& check : checks_) check->add(samples, pixel);
+  }
+  /// What contradicts docs/file-format.md.
+  std::vector<InputNote> notes(const Window& data_window) const;
+
+ private:
+  ConventionChecks checks_;
+};
+
 /// Film positions outside their pixel.
 void add_film_check(const SampleBuffer& samples, ConventionChecks& checks);
 /// Normals, reflectances, and whether positions lie on surfaces with these normals; of those that the frame has.

@@ -20,26 +20,23 @@ Number lower_median(std::vector<Number> values) {
 }
 
 /// Of a pixel's samples, in scaled radiance.
-double mean_luminance(const CleanFrame& clean, std::size_t pixel) {
-  const std::vector<std::uint32_t>& first = clean.samples.first_sample;
-  const auto scaled = [&](const float* record, std::size_t k) {
-    return record[clean.columns.color[k]] * clean.prepared.facts.radiance_scale;
-  };
+double mean_luminance(const Frame& frame, std::size_t pixel) {
+  const std::uint32_t first = frame.first_sample[pixel], end = frame.first_sample[pixel + 1];
   double sum = 0;
-  for (std::uint32_t i = first[pixel]; i < first[pixel + 1]; ++i) {
-    const float* record = clean.samples.record(i);
-    sum += (static_cast<double>(scaled(record, 0)) + scaled(record, 1) + scaled(record, 2)) / 3;
+  for (std::uint32_t i = first; i < end; ++i) {
+    const float* color = frame.record(i);
+    sum += (static_cast<double>(color[0]) + color[1] + color[2]) / 3;
   }
-  return first[pixel] < first[pixel + 1] ? std::max(sum / (first[pixel + 1] - first[pixel]), 0.0) : 0;
+  return first < end ? std::max(sum / (end - first), 0.0) : 0;
 }
 
 float power_of_two(int exponent) { return std::ldexp(1.0F, std::clamp(exponent, -126, 126)); }
 
 /// The power of two that exposes the frame: of the mean luminance, without what is far above the median. Over all
 /// samples, in the order of the pixels.
-float exposure_of(const CleanFrame& clean) {
-  std::vector<double> luminances(clean.samples.first_sample.size() - 1), positive;
-  for (std::size_t pixel = 0; pixel < luminances.size(); ++pixel) luminances[pixel] = mean_luminance(clean, pixel);
+float exposure_of(const Frame& frame) {
+  std::vector<double> luminances(frame.first_sample.size() - 1), positive;
+  for (std::size_t pixel = 0; pixel < luminances.size(); ++pixel) luminances[pixel] = mean_luminance(frame, pixel);
   std::copy_if(luminances.begin(), luminances.end(), std::back_inserter(positive), [](double l) { return l > 0; });
   if (positive.empty()) return 1;
   const double limit = 8 * lower_median(std::move(positive));
@@ -135,7 +132,6 @@ Observed observe(SampleBuffer samples, const Settings& settings, std::shared_ptr
   plan.width = clean.prepared.facts.width;
   plan.height = clean.prepared.facts.height;
   plan.carried = clean.prepared.facts.carried;
-  plan.exposure = exposure_of(clean);
   plan.weight_scale = weight_scale(clean.prepared.frame.weights);
   plan.has_albedo = view.has(RPF_INPUT_ALBEDO) && view.any_hit(clean.samples);
   const std::vector<int> inputs = available_inputs(view);
@@ -154,6 +150,7 @@ Observed observe(SampleBuffer samples, const Settings& settings, std::shared_ptr
                            for (const int input : columns) *to++ = values[input];
                          });
   frame.first_sample = std::move(clean.samples.first_sample);
+  plan.exposure = exposure_of(frame);
   result.prepared = std::move(clean.prepared);
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "learned/observe.h"
 
@@ -41,6 +42,14 @@ bool is_zero(const float* record, const Three& columns) {
 
 float or_zero(float value) { return std::isnan(value) ? 0.0F : value; }
 
+/// std::floor() without the call that it is on processors before SSE4.1.
+float floor_of(float value) {
+  constexpr float all_whole = 1 << 23;  // from here on
+  if (!(std::fabs(value) < all_whole)) return value;
+  const auto whole = static_cast<float>(static_cast<int>(value));
+  return whole > value ? whole - 1 : whole;
+}
+
 /// 2u - 1 of a number in [0, 1); 0 where it is missing.
 float centered(float u) { return std::isnan(u) ? 0.0F : rpf_held(2 * u - 1, -1, 1); }
 
@@ -77,15 +86,26 @@ RecordView::RecordView(const CleanFrame& clean)
   const Window& window = clean.samples.data_window;
   numbers_.push_back({RPF_INPUT_FILM, clean.columns.film[0], static_cast<float>(window.x), true});
   numbers_.push_back({RPF_INPUT_FILM + 1, clean.columns.film[1], static_cast<float>(window.y), true});
-  for (int input = RPF_INPUT_NORMAL; input < RPF_INPUTS; ++input)
-    reads_.at(static_cast<std::size_t>(input)) = has(input);
+  std::vector<int> all(RPF_INPUTS - RPF_INPUT_NORMAL);
+  std::iota(all.begin(), all.end(), RPF_INPUT_NORMAL);
+  reads_ = reads_of(all);
+}
+
+RecordView::Reads RecordView::reads_of(const std::vector<int>& inputs) const {
+  const auto reads_any = [&](int first, int end) {
+    return std::any_of(inputs.begin(), inputs.end(), [&](int i) { return i >= first && i < end && has(i); });
+  };
+  return {reads_any(RPF_INPUT_NORMAL, RPF_INPUT_ALBEDO), reads_any(RPF_INPUT_ALBEDO, RPF_INPUT_POSITION),
+          reads_any(RPF_INPUT_POSITION, RPF_INPUT_MISS), reads_any(RPF_INPUT_NORMAL2, RPF_INPUT_LENS),
+          reads_any(RPF_INPUT_DISTANCE2, RPF_INPUT_HIT2)};
 }
 
 RecordView RecordView::only(const std::vector<int>& inputs) const {
   RecordView view = *this;
-  view.reads_.fill(false);
-  for (const int input : inputs) view.reads_.at(static_cast<std::size_t>(input)) = has(input);
-  const auto is_left_out = [&](const Number& n) { return !view.reads_.at(static_cast<std::size_t>(n.input)); };
+  view.reads_ = reads_of(inputs);
+  const auto is_left_out = [&](const Number& n) {
+    return std::find(inputs.begin(), inputs.end(), n.input) == inputs.end();
+  };
   view.numbers_.erase(std::remove_if(view.numbers_.begin(), view.numbers_.end(), is_left_out), view.numbers_.end());
   return view;
 }
@@ -125,9 +145,9 @@ void RecordView::read_first_hit(const float* record, bool is_hit, const Position
     for (std::size_t k = 0; k < 3; ++k)
       inputs[static_cast<std::size_t>(input) + k] = is_hit ? rpf_held(or_zero(record[(*columns)[k]]), least, most) : 0;
   };
-  if (reads_any(RPF_INPUT_NORMAL, 3)) read(normal_, RPF_INPUT_NORMAL, -longest_normal, longest_normal);
-  if (reads_any(RPF_INPUT_ALBEDO, 3)) read(albedo_, RPF_INPUT_ALBEDO, 0, 1);
-  if (!reads_any(RPF_INPUT_POSITION, 3)) return;
+  if (reads_.normal) read(normal_, RPF_INPUT_NORMAL, -longest_normal, longest_normal);
+  if (reads_.albedo) read(albedo_, RPF_INPUT_ALBEDO, 0, 1);
+  if (!reads_.position) return;
   for (std::size_t k = 0; k < 3; ++k) {
     const double off = is_hit ? record[(*position_)[k]] - positions.median[k] : 0;
     const float p = or_zero(static_cast<float>(off / positions.deviation));
@@ -153,17 +173,16 @@ void RecordView::read_second_hit(const float* record, bool is_hit, const Positio
   for (std::size_t k = 0; k < 3; ++k)
     inputs[RPF_INPUT_NORMAL2 + k] =
         is_hit_again ? rpf_held(record[(*normal2_)[k]], -longest_normal, longest_normal) : 0.0F;
-  if (reads_[RPF_INPUT_DISTANCE2]) inputs[RPF_INPUT_DISTANCE2] = is_hit_again ? second_distance(record, positions) : 0;
+  if (reads_.second_distance) inputs[RPF_INPUT_DISTANCE2] = is_hit_again ? second_distance(record, positions) : 0;
 }
 
 void RecordView::read(const float* record, const PositionFacts& positions, float* inputs) const {
   const bool is_hit = this->is_hit(record);
   read_first_hit(record, is_hit, positions, inputs);
-  if (reads_any(RPF_INPUT_NORMAL2, RPF_INPUT_LENS - RPF_INPUT_NORMAL2))
-    read_second_hit(record, is_hit, positions, inputs);
+  if (reads_.second_hit) read_second_hit(record, is_hit, positions, inputs);
   for (const Number& n : numbers_) {
     const float u = record[n.column] - n.origin;
-    inputs[n.input] = centered(n.is_film ? u - std::floor(u) : u);
+    inputs[n.input] = centered(n.is_film ? u - floor_of(u) : u);
   }
 }
 

@@ -1,7 +1,6 @@
 // Inputs of the network from the records of a cleaned frame (docs/network.md, "Inputs of a sample").
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -40,10 +39,12 @@ class RecordView {
     bool is_film;
   };
 
-  /// Whether any of so many inputs is wanted.
-  bool reads_any(int input, int count) const {
-    return std::any_of(reads_.begin() + input, reads_.begin() + input + count, [](bool reads) { return reads; });
-  }
+  /// The groups of inputs that are read; asked for every sample, so found once.
+  struct Reads {
+    bool normal = false, albedo = false, position = false, second_hit = false, second_distance = false;
+  };
+
+  Reads reads_of(const std::vector<int>& inputs) const;
   bool is_hit(const float* record) const;
   bool is_second_hit(const float* record) const;  ///< of a sample that is a hit
   void read_first_hit(const float* record, bool is_hit, const PositionFacts& positions, float* inputs) const;
@@ -53,7 +54,7 @@ class RecordView {
   Columns normal_, albedo_, position_, normal2_, position2_;
   std::optional<std::size_t> hit_;
   std::vector<Number> numbers_;
-  std::array<bool, RPF_INPUTS> reads_ = {};
+  Reads reads_;
 };
 
 /// The input that a variable such as "N.X", "lens.U" or "hit" goes into; of those that go into several the first. -1:
