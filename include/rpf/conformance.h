@@ -43,7 +43,7 @@ struct ConformanceOptions {
   std::string device;  ///< as Settings::device
   bool full = false;   ///< all cases; else a choice of them that takes about a minute
   std::string filter;  ///< only cases whose name contains this
-  int threads = 0;     ///< 0: all cores of the process's affinity mask
+  int threads = 0;     ///< 0: available_threads()
   /// Called before every case with its number, their count and its name. Returning false cancels: Error(cancelled).
   std::function<bool(std::size_t, std::size_t, const std::string&)> progress;
 };

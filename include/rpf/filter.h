@@ -101,7 +101,7 @@ std::vector<std::string> backend_names();
 /// above them (version 1 or 2), and `ulimit -v` and `-d`.
 std::uint64_t available_memory();
 
-/// The number of threads that 0 stands for: cores in the process's affinity mask.
+/// The number of threads that 0 stands for: cores of the affinity mask, or of the control groups (cpu.max), if fewer.
 int available_threads();
 
 }  // namespace rpf

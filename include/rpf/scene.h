@@ -38,7 +38,7 @@ struct SceneOptions {
   float world_scale = 1;  ///< above 0
   std::array<float, 3> world_offset = {0, 0, 0};
 
-  int threads = 0;  ///< 0: all cores of the process's affinity mask. Never changes the result.
+  int threads = 0;  ///< 0: available_threads(). Never changes the result.
 };
 
 /// A scene and what it is for.

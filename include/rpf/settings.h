@@ -87,7 +87,7 @@ struct Settings {
   /// the whole frame.
   std::optional<Window> crop;
 
-  int threads = 0;               ///< 0: all cores of the process's affinity mask
+  int threads = 0;               ///< 0: available_threads()
   std::uint64_t max_memory = 0;  ///< bytes; 0: no limit
 };
 

@@ -5,7 +5,7 @@
 namespace rpf::cli {
 
 /// Threads to use when --threads is not given: RPF_NUM_THREADS (read by the parser), then the scheduler's
-/// SLURM_CPUS_PER_TASK, CUE_THREADS or NSLOTS, then the affinity mask.
+/// SLURM_CPUS_PER_TASK, CUE_THREADS or NSLOTS, then available_threads().
 int default_threads();
 
 /// Bytes that a run may take: --max-memory in megabytes (or RPF_MAX_MEMORY_MB); where that is 0, nine tenths of

@@ -2,13 +2,17 @@
 
 #include <sched.h>
 
+#include <algorithm>
+
 #include "rpf/filter.h"
+#include "run/control_groups.h"
 
 namespace rpf {
 
 int available_threads() {
   cpu_set_t mask;
-  return sched_getaffinity(0, sizeof mask, &mask) == 0 && CPU_COUNT(&mask) > 0 ? CPU_COUNT(&mask) : 1;
+  const int cores = sched_getaffinity(0, sizeof mask, &mask) == 0 ? CPU_COUNT(&mask) : 1;
+  return std::clamp(cores, 1, control_group_threads("/"));
 }
 
 int thread_count(const Settings& settings) { return settings.threads > 0 ? settings.threads : available_threads(); }

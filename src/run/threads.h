@@ -5,7 +5,7 @@
 
 namespace rpf {
 
-/// The threads that the settings stand for: all cores of the affinity mask where they do not say.
+/// The threads that the settings stand for: available_threads() where they do not say.
 int thread_count(const Settings& settings);
 
 }  // namespace rpf

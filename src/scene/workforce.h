@@ -10,7 +10,7 @@ namespace rpf::scene {
 struct Work {
   std::size_t pixels = 0;
   double samples_per_pixel = 1;  ///< on average: how large a piece is
-  int threads = 0;               ///< 0: all cores of the affinity mask
+  int threads = 0;               ///< 0: available_threads()
 };
 
 /// Calls `render` for every pixel, from several threads. Throws Error(cancelled) where the caller wants to stop.

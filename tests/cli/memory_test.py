@@ -109,23 +109,30 @@ class Memory(unittest.TestCase):
         if not SANITIZED:
             self.assertLess(peak, 2 * PROGRAM_MB)  # memory is taken for pixels that come
 
-    def test_the_limit_of_a_control_group(self):
-        groups = Path("/sys/fs/cgroup/memory")
-        own = re.search(r"^\d+:memory:(.*)$", Path("/proc/self/cgroup").read_text(encoding="utf-8"), re.M)
-        group = groups / (own[1].lstrip("/") if own else "") / f"rpf-test-{os.getpid()}"
+    def expect_in_group(self, controller, limits, expected):
+        """What a dry run says in a group below one with these limits."""
+        own = re.search(rf"^\d+:(?:.*,)?{controller}(?:,.*)?:(.*)$", Path("/proc/self/cgroup").read_text(encoding="utf-8"), re.M)
+        group = Path("/sys/fs/cgroup") / controller / (own[1].lstrip("/") if own else "") / f"rpf-test-{os.getpid()}"
+        inner = group / "inner"
         try:
-            group.mkdir()
-            (group / "memory.limit_in_bytes").write_text(str(300 << 20))
-            inner = group / "inner"
-            inner.mkdir()
+            inner.mkdir(parents=True)
+            for name, value in limits.items():
+                (group / name).write_text(str(value))
         except OSError:
-            self.skipTest("skipped: no control group of version 1 can be made")
+            self.skipTest(f"skipped: no control group of version 1 can be made for {controller}")
         try:
             result = subprocess.run(["sh", "-c", 'echo $$ > "$0/cgroup.procs" && exec "$@"', inner, RPF, EXAMPLE, "--dry-run"], capture_output=True, text=True, check=False)
-            self.assertIn("of at most 270 MB", result.stdout + result.stderr)
+            self.assertIn(expected, result.stdout + result.stderr)
         finally:
             inner.rmdir()
             group.rmdir()
+
+    def test_the_limit_of_a_control_group(self):
+        self.expect_in_group("memory", {"memory.limit_in_bytes": 300 << 20}, "of at most 270 MB")
+
+    def test_the_processors_of_a_control_group(self):
+        """A part of one is one thread, on any machine."""
+        self.expect_in_group("cpu", {"cpu.cfs_period_us": 100000, "cpu.cfs_quota_us": 70000}, ", 1 threads")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from pathlib import Path
 
 RPF, PROJECT = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 FARM = PROJECT / "examples" / "farm"
-FRAMES = 12
+FRAMES = 24
 # In place of rpf: the first process that begins is killed after its first frame.
 KILLED_ONCE = """#!/bin/sh
 if mkdir "{folder}/killed" 2>/dev/null; then
@@ -30,7 +30,7 @@ class FarmTest(unittest.TestCase):
         cls.folder = Path(tempfile.mkdtemp(prefix="rpf_farm_"))
         for number in range(1, FRAMES + 1):
             cls.run_here(RPF, "scene", "motion", "--size", "96x64", "--spp", 4, "--seed", number, "-o", cls.folder / f"in.{number:04}.exr")
-        cls.run_here(RPF, cls.folder / "in.####.exr", "-o", cls.folder / "single.####.exr", "-q")
+        cls.run_here(RPF, cls.folder / "in.####.exr", "-o", cls.folder / "single.####.exr", "--frames", f"1-{FRAMES}", "-q")
         cls.rpf = cls.folder / "rpf"
         cls.rpf.write_text(KILLED_ONCE.format(folder=cls.folder, rpf=RPF))
         cls.rpf.chmod(0o755)

@@ -1,10 +1,11 @@
 // The limit that a run really has: control groups as Docker, Slurm and systemd make them.
-#include "run/memory_limit.h"
+#include "run/control_groups.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <limits>
+#include <utility>
 
 #include "rpf/filter.h"
 #include "temporary_folder.h"
@@ -14,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max(), megabyte = 1 << 20;
+constexpr int unlimited_threads = std::numeric_limits<int>::max();
 
 class ControlGroups : public testing::Test {
  protected:
@@ -32,6 +34,7 @@ class ControlGroups : public testing::Test {
                                      "34 25 0:30 / /sys/fs/cgroup/unified rw - cgroup2 cgroup rw");
   }
   std::uint64_t limit() const { return control_group_memory(root()); }
+  int threads() const { return control_group_threads(root()); }
 
  private:
   fs::path root() const { return folder_.path(); }
@@ -92,11 +95,51 @@ TEST_F(ControlGroups, AContainerThatSeesItsOwnGroupOnly) {
   }
 }
 
+TEST_F(ControlGroups, ProcessorsOfVersion2AndItsParents) {
+  EXPECT_EQ(threads(), unlimited_threads);
+  mount_unified("/");
+  write("proc/self/cgroup", "0::/slurm/job_7/step_0");
+  write("sys/fs/cgroup/slurm/job_7/step_0/cpu.max", "max 100000");
+  EXPECT_EQ(threads(), unlimited_threads);
+  write("sys/fs/cgroup/slurm/job_7/cpu.max", "1200000 100000");
+  write("sys/fs/cgroup/slurm/job_8/cpu.max", "1000 100000");  // another job's
+  EXPECT_EQ(threads(), 12);
+  write("sys/fs/cgroup/slurm/cpu.max", "150000 50000");  // in shorter periods
+  EXPECT_EQ(threads(), 3);
+}
+
+TEST_F(ControlGroups, ProcessorsOfVersion1AndItsParents) {
+  mount_memory("/");
+  write("proc/self/cgroup", "9:cpu:/docker/abc\n4:memory:/docker/abc\n0::/");
+  const fs::path cpu = "sys/fs/cgroup/cpu/docker/abc";
+  write(cpu / "cpu.cfs_quota_us", "-1");
+  write(cpu / "cpu.cfs_period_us", "100000");
+  EXPECT_EQ(threads(), unlimited_threads);
+  write("sys/fs/cgroup/cpu/docker/cpu.cfs_quota_us", "400000");
+  write("sys/fs/cgroup/cpu/docker/cpu.cfs_period_us", "100000");
+  EXPECT_EQ(threads(), 4);
+  write(cpu / "cpu.cfs_quota_us", "50000");
+  EXPECT_EQ(threads(), 1);
+}
+
+TEST_F(ControlGroups, APartOfAProcessorIsAThread) {
+  mount_unified("/");
+  write("proc/self/cgroup", "0::/job");
+  for (const auto& [quota, expected] : {std::pair("1000 100000", 1), {"100000 100000", 1}, {"150000 100000", 2}}) {
+    write("sys/fs/cgroup/job/cpu.max", quota);
+    EXPECT_EQ(threads(), expected) << quota;
+  }
+}
+
 TEST_F(ControlGroups, StrangeFilesAreNoLimit) {
   write("proc/self/mountinfo", "\n1 2 3\n30 24 0:26 / /sys/fs/cgroup rw - cgroup2 cgroup rw\n- - - -");
   write("proc/self/cgroup", "0::/job\n:\nnonsense");
   write("sys/fs/cgroup/job/memory.max", "many");
   EXPECT_EQ(limit(), unlimited);
+  for (const char* quota : {"", "100000", "0 100000", "100000 0", "-5 100000", "a b"}) {
+    write("sys/fs/cgroup/job/cpu.max", quota);
+    EXPECT_EQ(threads(), unlimited_threads) << quota;
+  }
 }
 
 TEST(AvailableMemory, IsSomething) { EXPECT_GT(available_memory(), megabyte); }
