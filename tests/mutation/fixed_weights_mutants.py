@@ -1,5 +1,5 @@
 """Mutants of the methods with fixed weights (algorithm.md, section 8), of the reference and of the OpenCL kernel."""
-from mutants import ELEMENTWISE, PREPARE, Mutant
+from mutants import CLEAN_FRAME, ELEMENTWISE, Mutant
 
 BOX, BOX_KERNEL, FIXED_WEIGHTS = "src/cpu/box.cpp", "kernels/box.cl", "src/plan/fixed_weights.cpp"
 
@@ -16,7 +16,7 @@ MUTANTS = [
            "oracle bilateral weights", "sigma of the color: in scaled radiance"),
     Mutant("box_largest_scale", FIXED_WEIGHTS, "0x1p80", "0x1p127",
            "Methods/EveryMethod.StaysInsideTheRangeOfItsInputAtAnyRadianceAndSigma/*", "sigma: so small that distances overflow"),
-    Mutant("box_position", PREPARE, "(place[axis]) + 0.5F", "(place[axis])",
+    Mutant("box_position", CLEAN_FRAME, "(place[axis]) + 0.5F", "(place[axis])",
            "Methods/EveryMethod.TakesTheMiddleOfThePixelForAMissingPosition/*", "input: a missing position is the pixel's corner"),
 
     Mutant("cl_box_edge", BOX_KERNEL, "row <= min(y + pass->reach, pass->height - 1)", "row <= min(y + pass->reach, pass->height - 2)",

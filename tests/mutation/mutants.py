@@ -9,7 +9,7 @@ from dataclasses import dataclass
 NUMERIC, ELEMENTWISE, MATH = "kernels/numeric.h", "kernels/elementwise.h", "kernels/rpf_math.h"
 NEIGHBORHOOD, STATISTICS = "src/cpu/neighborhood.cpp", "src/cpu/statistics.cpp"
 WEIGHTING, BACKEND = "src/cpu/weighting.cpp", "src/cpu/cpu_backend.cpp"
-PLAN, TABLES, CLEAN = "src/plan/plan.cpp", "src/plan/tables.cpp", "src/frame/clean.cpp"
+PLAN, TABLES, CLEAN, CLEAN_FRAME = "src/plan/plan.cpp", "src/plan/tables.cpp", "src/frame/clean.cpp", "src/frame/clean_frame.cpp"
 SIZE, REGIONS, RANGES = "src/plan/neighborhood_size.cpp", "src/plan/regions.cpp", "include/rpf/ranges.h"
 PREPARE, DRIVER, RESOLVE = "src/frame/prepare.cpp", "src/run/driver.cpp", "src/frame/resolve.cpp"
 MERGE, RAW_READER, HDR_FLIP = "src/frame/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
@@ -77,9 +77,9 @@ MUTANTS = [
            "PositionDiagonal.LeavesOutRaysThatTheHitChannelCallsMissed", "input: feature.hit is not read"),
     Mutant("missed_rays_in_box", PREPARE, "return columns.normal.empty() || ", "return true || ",
            "oracle missed_rays_unmarked tolerance", "input: a normal of 0 counts as a hit"),
-    Mutant("scale_no_power_of_two", PREPARE, "std::ldexp(1.0F, std::clamp(", "std::ldexp(1.1F, std::clamp(",
+    Mutant("scale_no_power_of_two", CLEAN_FRAME, "std::ldexp(1.0F, std::clamp(", "std::ldexp(1.1F, std::clamp(",
            "RadianceScale.IsThePowerOfTwoThatBringsTheBrightestTo2To40", "radiance scale: rounds"),
-    Mutant("scale_of_one", PREPARE, "return brightest > 0 ?", "return brightest < 0 ?",
+    Mutant("scale_of_one", CLEAN_FRAME, "return brightest > 0 ?", "return brightest < 0 ?",
            BOTH + "ScalesExactlyWithPowersOfTwo/*", "radiance scale: none"),
 
     # ---------------------------------------------------------------- 3. neighborhood
@@ -278,7 +278,7 @@ MUTANTS = [
            "oracle sample_weight image", "pixel mean: 0 / 0 where no sample has a weight"),
     Mutant("empty_pixel", RESOLVE, "if (frame.samples(pixel) > 0) mean_of_samples", "if (colors.size() > 0) mean_of_samples",
            "oracle spp_varying_thesis image", "pixel mean: 0 / 0 without samples"),
-    Mutant("tile_origin", BACKEND, "tile.x + i % tile.width", "i % tile.width",
+    Mutant("tile_origin", BACKEND, "tile.x + place % tile.width", "place % tile.width",
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "tiles: tile-relative pixel"),
     Mutant("last_tile_lost", "src/run/tiles.cpp", "y < region.height; y += height)", "y + height <= region.height; y += height)",
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "tiles: the last band is skipped"),

@@ -102,7 +102,7 @@ MUTANTS = [
     Mutant("cl_learned_weight", SAMPLES, "float16 logit = output[RPF_WEIGHT_FEATURES];", "float16 logit = 0.0f;", LEARNED + "weights", "no bias"),
     Mutant("cl_sums", SAMPLES, "total += weights[samples.first + s];", "total += weights[samples.first];", LEARNED + "sums", "the first sample for all"),
     Mutant("cl_taps", PASSES, "total += row[t];", "total += t == 4 ? 0.0f : row[t];", LEARNED + "pass0", "a tap is not counted"),
-    Mutant("cl_margin", PASSES, "begin == 0 && x < RPF_MARGIN; ++x) row[x] = RPF_NOT_THERE", "begin == 0 && x < RPF_MARGIN; ++x) row[x] = 0.0f",
+    Mutant("cl_edge_weights", PASSES, "begin == 0 && x < RPF_MARGIN; ++x) row[x] = RPF_NOT_THERE", "begin == 0 && x < RPF_MARGIN; ++x) row[x] = 0.0f",
            LEARNED + "pass0", "pixels beside the frame weigh"),
     Mutant("cl_blend", PASSES, "rpf_blend(vload16(0, values))", "vload16(0, values)", LEARNED + "result", "the logit in place of the share"),
     Mutant("cl_rows_kept", "src/opencl/row_pipeline.cpp", "first_read(read, step.done));\n}", "first_read(read, step.done) - 1);\n}",
