@@ -1,6 +1,11 @@
 """rpf.mitsuba against Mitsuba's own renderings. Skipped where Mitsuba is not installed."""
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
+
+import rpf
 
 mi = pytest.importorskip("mitsuba")
 import drjit as dr  # noqa: E402
@@ -10,6 +15,7 @@ from rpf import errors as rpf_errors  # noqa: E402
 from rpf.mitsuba.__main__ import main  # noqa: E402
 
 select_variant()
+PROJECT = Path(__file__).parents[2]
 
 # mi.render sums in another order, in float
 MEAN_TOLERANCE = 1e-5
@@ -111,16 +117,21 @@ def test_reference_is_the_mean_of_many_and_knows_its_noise():
 
 
 def test_file_is_read_by_the_code_of_the_document(tmp_path):
-    import re
-    from pathlib import Path
     code = {}
-    exec(re.search(r"```python\n(.*?)```", (Path(__file__).parents[2] / "docs/file-format.md").read_text(), re.S).group(1), code)
+    exec(re.search(r"```python\n(.*?)```", (PROJECT / "docs/file-format.md").read_text(), re.S).group(1), code)
     samples = render_samples(mi.load_dict(cornell_box()), 4)
     write_samples(tmp_path / "a.rpf", samples)
     header, counts, channels = code["read_samples"](tmp_path / "a.rpf")
     assert header["dataWindow"] == [0, 0, 33, 20] and (counts == 4).all()
     assert all(np.array_equal(channels[name], samples.channels[name], equal_nan=True) for name in samples.channels)
     assert [p.name for p in tmp_path.iterdir()] == ["a.rpf"]
+
+
+def test_lines_of_the_document():
+    code = re.search(r"<!-- run by python.mitsuba -->\n```python\n(.*?)```", (PROJECT / "docs/python.md").read_text(encoding="utf-8"), re.S).group(1)
+    names = {"rpf": rpf, "scene": mi.load_dict(cornell_box())}
+    exec(code, names)
+    assert names["image"].pixels.shape == (20, 33, 3) and names["image"].pixels.mean() > 0.01
 
 
 # ---- the command ----------------------------------------------------------------------------------------------------------

@@ -13,6 +13,7 @@ RPF, PROJECT, BUILD = (Path(argument).resolve() for argument in sys.argv[1:])
 HISTORY = "CHANGELOG.md"  # tells of options that are gone
 HIDDEN = {"manual"}  # a command that its help does not list
 OPTIONS_OF_OTHERS = {"--sensor": "python -m rpf.mitsuba", "--uninitialized": "oclgrind"}
+TESTS = [PROJECT / "tests/CMakeLists.txt", *(file for folder in ("tests", "python/tests") for file in (PROJECT / folder).rglob("*.py") if file.parent.name != "docs")]
 FOLDERS = "bench|cmake|docs|examples|include|integrations|kernels|networks|src|tests|training"
 
 
@@ -44,6 +45,7 @@ class Known:
     options = all_options()
     tests, labels = all_tests()
     presets = set(re.findall(r'"name": "(\w+)"', (PROJECT / "CMakePresets.json").read_text()))
+    read = set(re.findall(r"\b([\w-]+\.md)\b", "".join(file.read_text(encoding="utf-8") for file in TESTS)))
     deeds = set(re.findall(r"^  (\w+)\)", (PROJECT / "run").read_text(), re.M))
 
 
@@ -74,11 +76,18 @@ def wrong_files(text):
     return [path for path in paths if not any(list(PROJECT.glob(path.rstrip("/.") + ending)) for ending in ("", ".h", ".cpp"))]
 
 
-def rule_broken(block):
+def is_read(place, by):
+    """Whether tests read the page, so that they do not run a second copy of what it says."""
+    return by.startswith("clone.") or Path(place).name in Known.read
+
+
+def rule_broken(block, place):
     """What pages.py asks of a block, in a word where it is not so."""
     by = block.note.removeprefix("run by ") if block.note.startswith("run by ") else ""
     if by and by not in Known.tests:
         return f"there is no test {by}"
+    if by and place.startswith(("README", "docs/")) and not is_read(place, by):
+        return f"{by} does not read this page"
     if not block.language:
         return "a block without a language"
     explained = by or re.match(r"(not run: |file )\S", block.note)
@@ -88,7 +97,7 @@ def rule_broken(block):
 
 
 def wrong_in(place, page):
-    found = [f"{place}: {broken}: {block.text[:60]!r}" for block in blocks(page) if (broken := rule_broken(block))]
+    found = [f"{place}: {broken}: {block.text[:60]!r}" for block in blocks(page) if (broken := rule_broken(block, place))]
     found += [f"{place}: an indented block, fence it: {line}" for line in INDENTED.findall(without_blocks(page))]
     lines = [line for block in blocks(page) if block.language in ("sh", "text") for line in re.sub(r"(\\\n|\n  +)", " ", block.text).splitlines()]
     for text in [*lines, *spans(page)]:
@@ -114,6 +123,11 @@ class NamesTest(unittest.TestCase):
                                 ("`ctest -L orcale`", "orcale"), ("`./run test -R Nowhere`", "Nowhere"), ("`tests/docs/missing.py`", "tests/docs/missing.py"),
                                 ("(test `nowhere`)", "no test nowhere"), ("`python3 bench/missing.py`", "bench/missing.py")):
             self.assertIn(complaint, " ".join(wrong_in("page", page)), page)
+
+    def test_a_page_that_no_test_reads_is_found(self):
+        place, block = "docs/" + "nowhere.md", "<!-- run by example -->\n```sh\nx\n```\n"
+        self.assertIn("example does not read this page", " ".join(wrong_in(place, block)))
+        self.assertEqual(wrong_in(place, block.replace("example", "clone.demo")), [])
 
     def test_what_is_right_is_left_alone(self):
         for page in ("<!-- not run: needs Slurm -->\n```sh\nrpf x.exr --frames 3\n```\n", "<!-- run by example -->\n```cpp\nx\n```\n",

@@ -2,7 +2,7 @@
 
 - `sh` is run by commands_test.py, block after block in one folder a page, unless the line before it says otherwise:
     <!-- not run: REASON -->   it needs what a test does not have
-    <!-- run by TEST -->       a test of that name in ctest does it
+    <!-- run by TEST -->       a test of that name in ctest reads it from the page and does it; clone.NAME: clone_test.py, in a fresh clone
 - `text` is no code: formulas, trees, and synopses of `rpf`, whose options must be options of it
 - any other is `run by TEST`, or is written where the page's commands look for it:
     <!-- file NAME -->
@@ -29,6 +29,13 @@ def pages(project):
 
 def blocks(page):
     return [Block(match["language"], match["text"], match["note"] or "") for match in FENCED.finditer(page)]
+
+
+def run_by(project, test):
+    """What a test of that name has to run: all blocks that say so, page after page."""
+    found = [block.text for page in pages(project).values() for block in blocks(page) if block.note == f"run by {test}"]
+    assert found, f"no page has <!-- run by {test} -->"
+    return "".join(found)
 
 
 def without_blocks(page):

@@ -6,13 +6,19 @@ import sys
 import tempfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "docs"))
+from pages import run_by
+
 PROJECT = Path(sys.argv[2]).resolve()
 PACKAGES = sorted((PROJECT / "build" / "packages").glob("*.deb"))
-# Inside the root: installed with their dependencies; a frame on both backends; page, completion; a program that is built; gone again.
+# Inside the root: installed as docs/packages.md says, with their dependencies; a frame on both backends; page, completion; a program that is built; gone again.
 INSIDE = r"""
 set -eu
+printf 'APT::Get::Assume-Yes "true";\nAPT::Install-Recommends "false";\n' > /etc/apt/apt.conf.d/99test
+mkdir /build && ln -s /packages /build/packages
 find / -xdev -not -path '/proc/*' | sort > /before
-apt-get install -y -qq --no-install-recommends /packages/librpf0_*.deb /packages/rpf_*.deb pocl-opencl-icd >/dev/null
+(cd / && . /packages/install.sh) >/dev/null
+apt-get install -qq pocl-opencl-icd >/dev/null
 rpf --version
 for backend in cpu opencl; do rpf /packages/in.exr -o /tmp/$backend.exr --backend $backend; done
 rpf /tmp/cpu.exr -o /tmp/a.png --method gaussian -q
@@ -52,6 +58,7 @@ def fresh_root():
             shutil.copy(file, packages)
         shutil.copy(PROJECT / "examples" / "dof-spheres.samples.exr", packages / "in.exr")
         (packages / "inside.sh").write_text(INSIDE)
+        (packages / "install.sh").write_text(run_by(PROJECT, "packages.fresh_root"))
         made = subprocess.run(["mmdebstrap", "--variant=apt", f"--customize-hook=copy-in {packages} /", "--customize-hook=chroot \"$1\" sh /packages/inside.sh",
                                "bookworm", str(root)], check=False)
     return made.returncode
