@@ -20,7 +20,7 @@ namespace rpf::kernel {
 #define RPF_MARGIN 16
 
 // Samples lie in rows of so many, without a border.
-#define RPF_SAMPLE_ROW 256
+#define RPF_SAMPLE_ROW 64
 
 // What is computed of a sample: [sample][RPF_SEEN].
 #define RPF_SEEN 16

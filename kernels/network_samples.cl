@@ -6,8 +6,13 @@ typedef struct {
   uint count;
 } PixelSamples;
 
-static PixelSamples samples_of_pixel(__global const uint* first_sample, const rpf_chunk* c, int y, int x) {
-  __global const uint* first = first_sample + (y - c->first_row) * c->frame_width + c->x + x;
+// Where first_sample says it of the chunk's first pixel; the others follow: a chunk of a part of a row has one row.
+static int first_of_pixels(const rpf_chunk* c) {
+  return (c->first / c->width - c->first_row) * c->frame_width + c->x + c->first % c->width;
+}
+
+static PixelSamples samples_of_pixel(__global const uint* first_sample, const rpf_chunk* c, int pixel) {
+  __global const uint* first = first_sample + first_of_pixels(c) + (pixel - c->first);
   PixelSamples samples;
   samples.first = first[0] - c->first_sample;
   samples.count = first[1] - first[0];
@@ -34,20 +39,25 @@ static void fetch_records(__global const float* records, const rpf_chunk* c, uin
 }
 #endif
 
-// `base_columns`: of albedo and miss. Also writes behind the last sample, up to a multiple of RPF_LANES.
-__kernel void see_samples(__global const float* records, __global const int* base_columns, __global float* seen,
-                          const rpf_chunk c) {
-  for (uint s = RPF_LANES * (uint)get_global_id(0); s < c.samples; s += RPF_LANES * (uint)get_global_size(0)) {
+// Samples of a row, or of what there is of it.
+static uint first_of_row(int row) { return RPF_SAMPLE_ROW * (uint)row; }
+static uint end_of_row(const rpf_chunk* c, int row) { return min(first_of_row(row + 1), c->samples); }
+
+// What is computed of a row of samples. `base_columns`: of albedo and miss. Also writes behind the last sample, up to a
+// multiple of RPF_LANES.
+static void see_sample_row(__global const float* records, __global const int* base_columns, __global float* seen,
+                           const rpf_chunk* c, int row) {
+  for (uint s = first_of_row(row); s < end_of_row(c, row); s += RPF_LANES) {
 #ifdef RPF_AVX512
-    fetch_records(records, &c, s + 4 * RPF_LANES * (uint)get_global_size(0));
+    fetch_records(records, c, s + RPF_SAMPLE_ROW * (uint)get_global_size(0));
 #endif
-    const float16 miss = column_of(records, &c, base_columns[3], s);
+    const float16 miss = column_of(records, c, base_columns[3], s);
     float16 rows[RPF_LANES];
 #pragma unroll
     for (int i = 0; i < 3; ++i) {
-      const float16 color = rpf_seen_color(column_of(records, &c, i, s), c.exposure);
+      const float16 color = rpf_seen_color(column_of(records, c, i, s), c->exposure);
       float16 base = 1.0f;
-      if (c.has_albedo) base = rpf_albedo_base(column_of(records, &c, base_columns[i], s), miss);
+      if (c->has_albedo) base = rpf_albedo_base(column_of(records, c, base_columns[i], s), miss);
       rows[RPF_SEEN_INPUTS + RPF_INPUT_BRIGHTNESS + i] = rpf_brightness(color);
       rows[RPF_SEEN_INPUTS + RPF_INPUT_BRIGHTNESS_OVER + i] = rpf_brightness_over(color, base);
       rows[RPF_SEEN_COLOR + i] = color;
@@ -59,6 +69,29 @@ __kernel void see_samples(__global const float* records, __global const int* bas
     transpose(rows);
 #pragma unroll
     for (int l = 0; l < RPF_LANES; ++l) vstore16(rows[l], s + (uint)l, seen);
+  }
+}
+
+// Layers over the samples of a row, generated behind this text (src/opencl/layer_blocking.cpp): from what is computed
+// and columns of records to features, and from features with their context to what weight2 reads.
+static void sample1(__global const float* computed, __global const float* records, __global const float* weights,
+                    __global const float* bias, __global float* out, __global const int* columns, const rpf_layer l,
+                    int row);
+static void sample2(__global const float* coarse, __global const float* own, __global const float* weights,
+                    __global const float* bias, __global float* out, const rpf_layer l, int row);
+static void weight1(__global const float* coarse, __global const float* own, __global const float* weights,
+                    __global const float* bias, __global float* out, const rpf_layer l, int row);
+
+// What is computed of all samples, and their features; row by row, so that what a step writes is in the processor's
+// first cache for the next.
+__kernel void see_samples(__global const float* records, __global const int* base_columns, __global const int* columns,
+                          __global const float* weights1, __global const float* bias1, __global const float* weights2,
+                          __global const float* bias2, __global float* seen, __global float* hidden,
+                          __global float* features, const rpf_chunk c, const rpf_layer first, const rpf_layer second) {
+  for (int row = first_part(); row < end_part(&first.area); row += (int)get_global_size(0)) {
+    see_sample_row(records, base_columns, seen, &c, row);
+    sample1(seen, records, weights1, bias1, hidden, columns, first, row);
+    sample2(hidden, hidden, weights2, bias2, features, second, row);
   }
 }
 
@@ -166,7 +199,7 @@ __kernel void see_pixels(__global const float* records, __global const int* guid
   out.albedo_plane = plane_of(&albedo_grid, RPF_ALBEDO_SUMS);
   for (int p = c.first + (int)get_global_id(0); p < c.end; p += (int)get_global_size(0)) {
     const int y = p / c.width, x = p % c.width;
-    const PixelSamples samples = samples_of_pixel(first_sample, &c, y, x);
+    const PixelSamples samples = samples_of_pixel(first_sample, &c, p);
     out.cell = cells + row_at(&cell_grid, y) + (x + RPF_BORDER) * cell_stride;
     out.guides = guides + row_at(&guide_grid, y) + RPF_MARGIN + x;
     __global float* albedo_row = albedo + row_at(&albedo_grid, y);
@@ -187,23 +220,39 @@ __kernel void see_pixels(__global const float* records, __global const int* guid
 
 // ---- weights and sums -----------------------------------------------------------------------------------------------
 
-// Puts the context of every sample's pixel behind its features.
-__kernel void add_context(__global const float* heads, __global const uint* first_sample, __global float* features,
-                          const rpf_chunk c, const rpf_grid head_grid, const int head_stride) {
-  for (int p = c.first + (int)get_global_id(0); p < c.end; p += (int)get_global_size(0)) {
-    const int y = p / c.width, x = p % c.width;
-    const PixelSamples samples = samples_of_pixel(first_sample, &c, y, x);
-    const float8 context = vload8(0, heads + row_at(&head_grid, y) + (x + RPF_BORDER) * head_stride);
-    for (uint s = 0; s < samples.count; ++s)
-      vstore8(context, 0, features + (samples.first + s) * c.stride + c.features);
+// The last of some pixels that begins with this sample or before. `first`: where their samples begin; there is one
+// more.
+static int pixel_of_sample(__global const uint* first, int pixels, uint sample) {
+  int low = 0, high = pixels;
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    if (first[middle] <= sample)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+// Puts the context of its pixel behind the features of every sample of a row.
+static void add_context(__global const float* heads, __global const uint* first_sample, __global float* features,
+                        const rpf_chunk* c, const rpf_grid* head_grid, int head_stride, int row) {
+  const uint end = end_of_row(c, row);
+  __global const uint* first = first_sample + first_of_pixels(c);
+  int pixel = pixel_of_sample(first, c->end - c->first, c->first_sample + first_of_row(row));
+  for (uint s = first_of_row(row); s < end; ++pixel) {
+    const int y = (c->first + pixel) / c->width, x = (c->first + pixel) % c->width;
+    const float8 context = vload8(0, heads + row_at(head_grid, y) + (x + RPF_BORDER) * head_stride);
+    const uint end_of_pixel = min(first[pixel + 1] - c->first_sample, end);
+    for (; s < end_of_pixel; ++s) vstore8(context, 0, features + (size_t)s * c->stride + c->features);
   }
 }
 
-// weight2 and what follows, of RPF_LANES samples at once. `hidden`: [sample][RPF_WEIGHT_FEATURES] of weight1; `output`:
-// as many weights and the bias. Also writes behind the last sample, up to a multiple of RPF_LANES.
-__kernel void weigh_samples(__global const float* hidden, __global const float* output,
-                            __global const float* file_weights, __global float* weights, const rpf_chunk c) {
-  for (uint s = RPF_LANES * (uint)get_global_id(0); s < c.samples; s += RPF_LANES * (uint)get_global_size(0)) {
+// weight2 and what follows, of a row of samples. `hidden`: [sample][RPF_WEIGHT_FEATURES] of weight1; `output`: as many
+// weights and the bias. Also writes behind the last sample, up to a multiple of RPF_LANES.
+static void weigh_sample_row(__global const float* hidden, __global const float* output,
+                             __global const float* file_weights, __global float* weights, const rpf_chunk* c, int row) {
+  for (uint s = first_of_row(row); s < end_of_row(c, row); s += RPF_LANES) {
     float16 rows[RPF_LANES];
 #pragma unroll
     for (int l = 0; l < RPF_LANES; ++l) rows[l] = vload16(s + (uint)l, hidden);
@@ -212,8 +261,28 @@ __kernel void weigh_samples(__global const float* hidden, __global const float* 
 #pragma unroll
     for (int k = 0; k < RPF_WEIGHT_FEATURES; ++k) logit = fma(rows[k], output[k], logit);
     vstore16(rpf_learned_weight(logit), 0, weights + s);
-    for (uint l = s; c.has_weights && l < min(s + RPF_LANES, c.samples); ++l)
-      weights[l] = weights[l] * (file_weights[l] * c.weight_scale);
+    for (uint l = s; c->has_weights && l < min(s + RPF_LANES, c->samples); ++l)
+      weights[l] = weights[l] * (file_weights[l] * c->weight_scale);
+  }
+}
+
+// Weights of all samples, from what the head says of their pixels; what comes before is computed once more.
+__kernel void weigh_samples(__global const float* records, __global const int* base_columns,
+                            __global const int* columns, __global const float* weights1, __global const float* bias1,
+                            __global const float* weights2, __global const float* bias2, __global float* seen,
+                            __global float* hidden, __global float* features, const rpf_chunk c, const rpf_layer first,
+                            const rpf_layer second, __global const float* heads, __global const uint* first_sample,
+                            __global const float* hidden_weights, __global const float* hidden_bias,
+                            __global const float* output, __global const float* file_weights, __global float* weighed,
+                            __global float* weights, const rpf_layer third, const rpf_grid head_grid,
+                            const int head_stride) {
+  for (int row = first_part(); row < end_part(&first.area); row += (int)get_global_size(0)) {
+    see_sample_row(records, base_columns, seen, &c, row);
+    sample1(seen, records, weights1, bias1, hidden, columns, first, row);
+    sample2(hidden, hidden, weights2, bias2, features, second, row);
+    add_context(heads, first_sample, features, &c, &head_grid, head_stride, row);
+    weight1(features, features, hidden_weights, hidden_bias, weighed, third, row);
+    weigh_sample_row(weighed, output, file_weights, weights, &c, row);
   }
 }
 
@@ -226,21 +295,23 @@ static float weighted_sum(__global const float* weights, __global const float* v
 
 // `others`: what is carried beside the color; whatever where there is nothing.
 __kernel void sum_samples(__global const float* weights, __global const float* seen, __global const float* records,
-                          __global const float* others, __global const uint* first_sample, __global float* sums, const rpf_chunk c,
-                          const rpf_grid grid) {
+                          __global const float* others, __global const uint* first_sample, __global float* sums,
+                          const rpf_chunk c, const rpf_grid grid) {
   const int planes = (int)rpf_sums((uint)c.carried), plane = plane_of(&grid, planes);
   for (int p = c.first + (int)get_global_id(0); p < c.end; p += (int)get_global_size(0)) {
     const int y = p / c.width, x = p % c.width;
-    const PixelSamples samples = samples_of_pixel(first_sample, &c, y, x);
+    const PixelSamples samples = samples_of_pixel(first_sample, &c, p);
     __global const float* color = records + samples.first * (size_t)c.variables;
     __global const float* other = others + samples.first * (size_t)(c.carried - 3);
     __global const float* base = seen + samples.first * RPF_SEEN + RPF_SEEN_BASE;
     __global float* row = sums + row_at(&grid, y);
     __global float* out = row + RPF_MARGIN + x;
     for (int k = 0; k < 3; ++k)
-      out[(RPF_SUM_RADIANCE + k) * plane] = weighted_sum(weights + samples.first, color + k, c.variables, samples.count);
+      out[(RPF_SUM_RADIANCE + k) * plane] =
+          weighted_sum(weights + samples.first, color + k, c.variables, samples.count);
     for (int k = 0; k + 3 < c.carried; ++k)
-      out[(RPF_SUM_OTHERS + k) * plane] = weighted_sum(weights + samples.first, other + k, c.carried - 3, samples.count);
+      out[(RPF_SUM_OTHERS + k) * plane] =
+          weighted_sum(weights + samples.first, other + k, c.carried - 3, samples.count);
     for (int k = 0; k < 3; ++k)
       out[(RPF_SUM_BASE + k) * plane] = weighted_sum(weights + samples.first, base + k, RPF_SEEN, samples.count);
     float total = 0.0f;

@@ -27,11 +27,11 @@ class LayerText {
   }
 
   std::string text() {
-    line("__kernel void {}(__global const float* coarse, __global const float* own, __global const float* weights,",
-         shape_.name());
-    line("    __global const float* bias, __global float* out, {}const rpf_layer l) {{",
-         shape_.records ? "__global const int* columns, " : "");
-    line("  for (int i = first_part(); i < end_part(&l.area); i += (int)get_global_size(0)) {{");
+    line("{}(__global const float* coarse, __global const float* own, __global const float* weights,", heading());
+    line("    __global const float* bias, __global float* out, {}const rpf_layer l{}) {{",
+         shape_.records ? "__global const int* columns, " : "", is_of_samples() ? ", int i" : "");
+    line(is_of_samples() ? "  {{"
+                         : "  for (int i = first_part(); i < end_part(&l.area); i += (int)get_global_size(0)) {{");
     line(
         "    const int y = row_of_part(&l.area, i), begin = begin_of_part(&l.area, i), end = end_of_part(&l.area, i);");
     line("    __global float* line = out + row_at(&l.out, y) + {};", border() * shape_.out_stride);
@@ -40,7 +40,7 @@ class LayerText {
       sums(group);
       line("    }}");
     }
-    if (shape_.border) line("    close_row(line, {}, begin, end, l.area.width);", shape_.out_stride);
+    if (!is_of_samples()) line("    close_row(line, {}, begin, end, l.area.width);", shape_.out_stride);
     line("  }}");
     line("}}");
     return text_;
@@ -56,7 +56,9 @@ class LayerText {
     text_ += fmt::format(fmt::runtime(format), values...) + "\n";
   }
 
-  int border() const { return shape_.border ? RPF_BORDER : 0; }
+  bool is_of_samples() const { return !shape_.samples.empty(); }
+  std::string heading() const { return (is_of_samples() ? "static void " : "__kernel void ") + shape_.name(); }
+  int border() const { return is_of_samples() ? 0 : RPF_BORDER; }
 
   template <typename Body>
   void for_all(const Group& group, Body body) {
@@ -143,12 +145,11 @@ class LayerText {
 }  // namespace
 
 std::string LayerShape::name() const {
-  const std::string inputs = records      ? "records"
-                             : taps == 1  ? fmt::format("dense_{}", own)
+  if (!samples.empty()) return samples;
+  const std::string inputs = taps == 1    ? fmt::format("dense_{}", own)
                              : coarse > 0 ? fmt::format("up_{}_{}", coarse, own)
                                           : fmt::format("convolution_{}", own);
-  return fmt::format("{}_{}{}{}_{}_{}", inputs, outputs, leaky ? "_leaky" : "", border ? "" : "_samples", own_stride,
-                     out_stride);
+  return fmt::format("{}_{}{}_{}_{}", inputs, outputs, leaky ? "_leaky" : "", own_stride, out_stride);
 }
 
 std::string layer_text(const LayerShape& shape, const Blocking& blocking) { return LayerText(shape, blocking).text(); }

@@ -14,25 +14,26 @@ struct Blocking {
 
 /// What a layer's text depends on. Cells of inputs and outputs lie side by side, each with `stride` values.
 struct LayerShape {
-  int taps = 9;        ///< 9: 3x3; 1: a cell alone
-  int coarse = 0;      ///< inputs from the next coarser level, which come first; 0: none
-  int own = 0;         ///< inputs of the cells themselves
-  int outputs = 0;     ///<
-  bool leaky = true;   ///< lrelu at the end
-  bool border = true;  ///< rows have RPF_BORDER cells at either end; those of samples have none
-  /// Cells are samples: `coarse` inputs are computed of them, further ones are columns of their records, as many as
-  /// rpf_layer says.
+  int taps = 9;       ///< 9: 3x3; 1: a cell alone
+  int coarse = 0;     ///< inputs from the next coarser level, which come first; 0: none
+  int own = 0;        ///< inputs of the cells themselves
+  int outputs = 0;    ///<
+  bool leaky = true;  ///< lrelu at the end
+  /// Of a layer whose cells are samples, in rows without a border: its name in kernels/network_samples.cl.
+  std::string samples;
+  /// `coarse` inputs are computed of samples, further ones are columns of their records, as many as rpf_layer says.
   bool records = false;
   int coarse_stride = 0, own_stride = 0, out_stride = 0;
 
-  std::string name() const;  ///< of its kernel
+  std::string name() const;  ///< of its kernel, of samples of its function
 };
 
 /// Values of a cell as they are stored, a multiple of vectors: what is beyond `values` has no meaning.
 constexpr int padded(int values) { return (values + 7) / 8 * 8; }
 
-/// The kernel NAME(coarse, own, weights, bias, out, rpf_layer), weights [ky][kx][coarse, then own][padded(outputs)];
-/// with records NAME(computed, records, weights, bias, out, columns, rpf_layer).
+/// The kernel NAME(coarse, own, weights, bias, out, rpf_layer), weights [ky][kx][coarse, then own][padded(outputs)]. Of
+/// samples a function that has one more parameter, the row that it makes; with records NAME(computed, records, weights,
+/// bias, out, columns, rpf_layer, row).
 std::string layer_text(const LayerShape& shape, const Blocking& blocking);
 
 }  // namespace rpf

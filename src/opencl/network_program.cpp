@@ -33,9 +33,9 @@ std::vector<float> bias_of(const NetworkLayer& layer, int first, int count) {
   return bias;
 }
 
-/// Samples lie without a border, with strides of their own.
-LayerShape sample_shape(LayerShape shape, int own_stride, int out_stride) {
-  shape.border = false;
+/// Samples have strides of their own.
+LayerShape sample_shape(LayerShape shape, const char* name, int own_stride, int out_stride) {
+  shape.samples = name;
   shape.own_stride = own_stride;
   shape.out_stride = out_stride;
   return shape;
@@ -82,13 +82,13 @@ void NetworkProgram::place_layers(const Network& network, const std::vector<int>
     place(heads_[p], network.head(), all_inputs(network.head()), first, p == 0 ? RPF_CONTEXT + 1 : pass_values);
   }
   DeviceLayer &sample1 = layers_[0], &sample2 = layers_[1], &weight1 = layers_[layers_.size() - 2];
-  sample1.shape = sample_shape(sample1.shape, 0, padded(features_));
+  sample1.shape = sample_shape(sample1.shape, "sample1", 0, padded(features_));
   sample1.shape.records = true;
   sample1.shape.coarse = RPF_INPUT_NORMAL;  // computed
   sample1.shape.coarse_stride = RPF_SEEN;
   sample1.shape.own = 0;  // any number
-  sample2.shape = sample_shape(sample2.shape, padded(features_), feature_stride());
-  weight1.shape = sample_shape(weight1.shape, feature_stride(), RPF_WEIGHT_FEATURES);
+  sample2.shape = sample_shape(sample2.shape, "sample2", padded(features_), feature_stride());
+  weight1.shape = sample_shape(weight1.shape, "weight1", feature_stride(), RPF_WEIGHT_FEATURES);
   std::vector<float> last = network.weight2().weights;
   last.push_back(network.weight2().bias.front());
   last_weights_ = session_.copy(last);
@@ -107,7 +107,9 @@ void NetworkProgram::compile(const Blocking& blocking, const Check& check) {
   });
   session_.rehearse("network.cl", "", text, check);
   program_ = session_.compile("network.cl", "", text);
-  for_all([&](DeviceLayer& layer) { layer.kernel = cl::Kernel(program_, layer.shape.name().c_str()); });
+  for_all([&](DeviceLayer& layer) {
+    if (layer.shape.samples.empty()) layer.kernel = kernel(layer.shape.name());
+  });
 }
 
 }  // namespace rpf

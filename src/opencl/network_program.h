@@ -13,7 +13,7 @@ namespace rpf {
 /// A layer, or some of its outputs.
 struct DeviceLayer {
   LayerShape shape;
-  cl::Kernel kernel;
+  cl::Kernel kernel;  ///< none of samples: kernels/network_samples.cl calls these layers
   cl::Buffer weights, bias;
 };
 

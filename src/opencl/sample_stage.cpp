@@ -45,7 +45,6 @@ SampleStage::SampleStage(Session& session, const NetworkProgram& program, const 
       trace_(trace),
       see_samples_(program.kernel("see_samples")),
       see_pixels_(program.kernel("see_pixels")),
-      add_context_(program.kernel("add_context")),
       weigh_samples_(program.kernel("weigh_samples")),
       sum_samples_(program.kernel("sum_samples")),
       columns_(record_columns(job.plan)),
@@ -138,27 +137,21 @@ kernel::rpf_layer SampleStage::rows_of_samples(const DeviceLayer& layer, std::si
   return l;
 }
 
-void SampleStage::run_layer(const DeviceLayer& layer, const cl::Buffer& in, const cl::Buffer& out,
-                            std::size_t samples) {
-  cl::Kernel kernel = layer.kernel;
-  launch(kernel, in, in, layer.weights, layer.bias, out, rows_of_samples(layer, samples));
-}
-
-void SampleStage::see_samples(const Chunk& chunk) {
-  launch(see_samples_, chunk.records, base_columns_, seen_, chunk.launch);
-  const DeviceLayer& first = program_.layer(0);
-  kernel::rpf_layer l = rows_of_samples(first, chunk.samples);
-  l.own = {static_cast<int>(chunk.samples), chunk.launch.variables};
-  l.inputs = static_cast<int>(columns_.size());
-  cl::Kernel kernel = first.kernel;
-  launch(kernel, seen_, chunk.records, first.weights, first.bias, hidden_, columns_buffer_, l);
-  run_layer(program_.layer(1), hidden_, features_, chunk.samples);
+template <typename... More>
+void SampleStage::launch_on_samples(cl::Kernel& kernel, const Chunk& chunk, const More&... more) {
+  const DeviceLayer &sample1 = program_.layer(0), &sample2 = program_.layer(1);
+  kernel::rpf_layer first = rows_of_samples(sample1, chunk.samples);
+  first.own = {static_cast<int>(chunk.samples), chunk.launch.variables};
+  first.inputs = static_cast<int>(columns_.size());
+  launch(kernel, chunk.records, base_columns_, columns_buffer_, sample1.weights, sample1.bias, sample2.weights,
+         sample2.bias, seen_, hidden_, features_, chunk.launch, first, rows_of_samples(sample2, chunk.samples),
+         more...);
 }
 
 void SampleStage::see(int first, int end, const DeviceGrid& pixel, const DeviceGrid& guides, const DeviceGrid& albedo,
                       const Progress& progress) {
   for_chunks(first, end, progress, [&](const Chunk& chunk) {
-    see_samples(chunk);
+    launch_on_samples(see_samples_, chunk);
     launch(see_pixels_, chunk.records, guide_columns_, seen_, features_, chunk.first_sample, pixel.buffer,
            guides.buffer, albedo.buffer, chunk.launch, pixel.rows, guides.rows, albedo.rows, pixel.stored);
     if (trace_ != nullptr) keep_seen(chunk);
@@ -168,10 +161,9 @@ void SampleStage::see(int first, int end, const DeviceGrid& pixel, const DeviceG
 void SampleStage::sum(int first, int end, const DeviceGrid& heads, const DeviceGrid& sums, const Progress& progress) {
   const DeviceLayer& weight1 = program_.layer(job_.plan.network->layers.size() - 2);
   for_chunks(first, end, progress, [&](const Chunk& chunk) {
-    see_samples(chunk);
-    launch(add_context_, heads.buffer, chunk.first_sample, features_, chunk.launch, heads.rows, heads.stored);
-    run_layer(weight1, features_, weighed_, chunk.samples);
-    launch(weigh_samples_, weighed_, program_.last_weights(), chunk.weights, weights_, chunk.launch);
+    launch_on_samples(weigh_samples_, chunk, heads.buffer, chunk.first_sample, weight1.weights, weight1.bias,
+                      program_.last_weights(), chunk.weights, weighed_, weights_,
+                      rows_of_samples(weight1, chunk.samples), heads.rows, heads.stored);
     launch(sum_samples_, weights_, seen_, chunk.records, chunk.others, chunk.first_sample, sums.buffer, chunk.launch,
            sums.rows);
     if (trace_ != nullptr) keep(trace_->weights, weights_, chunk.samples, 1, 1);

@@ -62,10 +62,10 @@ class SampleStage {
   Chunk chunk(int first, int end) const;
   void for_chunks(int first, int end, const Progress& progress, const std::function<void(const Chunk&)>& body);
   void reserve(std::size_t samples);
-  /// What is computed of a chunk's samples, and their features.
-  void see_samples(const Chunk& chunk);
   kernel::rpf_layer rows_of_samples(const DeviceLayer& layer, std::size_t samples) const;
-  void run_layer(const DeviceLayer& layer, const cl::Buffer& in, const cl::Buffer& out, std::size_t samples);
+  /// A kernel that begins with what is computed of a chunk's samples, and their features.
+  template <typename... More>
+  void launch_on_samples(cl::Kernel& kernel, const Chunk& chunk, const More&... more);
   template <typename... Values>
   void launch(cl::Kernel& kernel, const Values&... values);
   void keep(std::vector<float>& to, const cl::Buffer& from, std::size_t samples, int stride, int values);
@@ -76,7 +76,7 @@ class SampleStage {
   EstimateJob job_;
   std::size_t items_;
   SampleTrace* trace_;
-  cl::Kernel see_samples_, see_pixels_, add_context_, weigh_samples_, sum_samples_;
+  cl::Kernel see_samples_, see_pixels_, weigh_samples_, sum_samples_;
   std::vector<int> columns_;  ///< of the inputs from the seventh live one on
   cl::Buffer columns_buffer_, guide_columns_, base_columns_;
   std::size_t capacity_ = 0;  ///< samples that the following have room for
