@@ -96,9 +96,12 @@ PreparedFrame prepare(SampleBuffer read, const Settings& settings) {
   result.colors = carried_values(clean, true);
   Frame& frame = result.frame;
   frame.variables = variables.size();
-  frame.records = repack(samples, variables.size(), [&](const float* record, float* to) {
-    for (const Source& source : variables) *to++ = value_of(record, source, result.facts.radiance_scale);
-  });
+  const auto make = [&, stride = samples.layout.size()](const float* records, float* to, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+      for (const Source& source : variables)
+        *to++ = value_of(records + i * stride, source, result.facts.radiance_scale);
+  };
+  frame.records = repack(samples, variables.size(), make);
   frame.has_missing = std::any_of(frame.records.begin(), frame.records.end(), [](float x) { return std::isnan(x); });
   frame.first_sample = std::move(samples.first_sample);
   if (settings.method == Method::cross_bilateral)

@@ -79,12 +79,18 @@ std::vector<int> available_inputs(const RecordView& view) {
 /// Those of `inputs` that do not vary. Looks at each until it varies: at most of a frame's only for a few samples.
 std::vector<int> constant_inputs(const SampleBuffer& samples, const RecordView& all, const PositionFacts& positions,
                                  std::vector<int> inputs) {
-  float first[RPF_INPUTS] = {}, values[RPF_INPUTS] = {};
-  if (samples.sample_count() > 0) all.read(samples.record(0), positions, first);
+  InputBlock block;
+  float first[RPF_INPUTS] = {};
   RecordView view = all;
-  const auto varies = [&](int input) { return values[input] != first[input]; };
-  for (std::size_t i = 0; i < samples.sample_count() && !inputs.empty(); ++i) {
-    view.read(samples.record(i), positions, values);
+  for (std::size_t i = 0; i < samples.sample_count() && !inputs.empty(); i += block_records) {
+    const std::size_t count = std::min(block_records, samples.sample_count() - i);
+    view.read(samples.record(i), count, positions, block);
+    for (const int input : inputs)
+      if (i == 0) first[input] = block.values[input][0];
+    const auto varies = [&](int input) {
+      const float* values = block.values[input];
+      return std::any_of(values, values + count, [&](float value) { return value != first[input]; });
+    };
     const auto varying = std::remove_if(inputs.begin(), inputs.end(), varies);
     if (varying == inputs.end()) continue;
     inputs.erase(varying, inputs.end());
@@ -108,6 +114,36 @@ std::vector<int> plan_columns(EstimatePlan& plan, const std::vector<int>& inputs
   }
   return columns;
 }
+
+/// Writes what the network sees in the place of records: scaled color, then the inputs that have columns.
+class RecordMaker {
+ public:
+  RecordMaker(const CleanFrame& clean, const RecordView& view, const std::vector<int>& columns,
+              const PositionFacts& positions)
+      : view_(view.only(columns)),
+        columns_(columns),
+        positions_(positions),
+        color_(clean.columns.color),
+        stride_(clean.samples.layout.size()),
+        scale_(clean.prepared.facts.radiance_scale) {}
+
+  void operator()(const float* records, float* to, std::size_t count) const {
+    InputBlock block;
+    view_.read(records, count, positions_, block);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) *to++ = records[i * stride_ + color_[k]] * scale_;
+      for (const int input : columns_) *to++ = block.values[input][i];
+    }
+  }
+
+ private:
+  RecordView view_;
+  const std::vector<int>& columns_;
+  const PositionFacts& positions_;
+  const std::size_t* color_;
+  std::size_t stride_;
+  float scale_;
+};
 
 /// The selected channels by name: those of inputs that vary, and the others.
 void sort_names(const CleanFrame& clean, const EstimatePlan& plan, PreparedFrame& prepared) {
@@ -141,14 +177,7 @@ Observed observe(SampleBuffer samples, const Settings& settings, std::shared_ptr
   clean.prepared.colors = carried_values(clean, false);
   Frame& frame = clean.prepared.frame;
   frame.variables = 3 + columns.size();
-  const RecordView wanted = view.only(columns);
-  frame.records = repack(clean.samples, frame.variables,
-                         [&, scale = clean.prepared.facts.radiance_scale](const float* record, float* to) {
-                           float values[RPF_INPUTS];
-                           wanted.read(record, positions, values);
-                           for (const std::size_t c : clean.columns.color) *to++ = record[c] * scale;
-                           for (const int input : columns) *to++ = values[input];
-                         });
+  frame.records = repack(clean.samples, frame.variables, RecordMaker(clean, view, columns, positions));
   frame.first_sample = std::move(clean.samples.first_sample);
   plan.exposure = exposure_of(frame);
   result.prepared = std::move(clean.prepared);

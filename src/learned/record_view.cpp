@@ -53,6 +53,12 @@ float floor_of(float value) {
 /// 2u - 1 of a number in [0, 1); 0 where it is missing.
 float centered(float u) { return std::isnan(u) ? 0.0F : rpf_held(2 * u - 1, -1, 1); }
 
+/// One input of `count` records from a column of theirs: make(value, number of the record).
+template <typename Make>
+void read_column(const float* column, std::size_t stride, std::size_t count, float* input, const Make& make) {
+  for (std::size_t i = 0; i < count; ++i) input[i] = make(column[i * stride], i);
+}
+
 /// The columns of a group's components.
 std::optional<Three> group_at(const CleanFrame& clean, const std::string& group, const char* axes) {
   const std::vector<std::string>& selected = clean.selection.features;
@@ -74,7 +80,8 @@ int input_of(const std::string& variable) {
 }
 
 RecordView::RecordView(const CleanFrame& clean)
-    : normal_(group_at(clean, "N", "XYZ")),
+    : stride_(clean.samples.layout.size()),
+      normal_(group_at(clean, "N", "XYZ")),
       albedo_(group_at(clean, "albedo", "RGB")),
       position_(group_at(clean, "P", "XYZ")),
       normal2_(group_at(clean, "N2", "XYZ")),
@@ -139,20 +146,23 @@ bool RecordView::any_hit(const SampleBuffer& samples) const {
   return false;
 }
 
-void RecordView::read_first_hit(const float* record, bool is_hit, const PositionFacts& positions, float* inputs) const {
-  inputs[RPF_INPUT_MISS] = is_hit ? 0.0F : 1.0F;
-  const auto read = [&](const Columns& columns, int input, float least, float most) {
+void RecordView::read_first_hits(const float* records, std::size_t count, const bool* hits,
+                                 const PositionFacts& positions, InputBlock& block) const {
+  for (std::size_t i = 0; i < count; ++i) block.values[RPF_INPUT_MISS][i] = hits[i] ? 0.0F : 1.0F;
+  const auto read = [&](const Three& columns, int input, float least, float most) {
     for (std::size_t k = 0; k < 3; ++k)
-      inputs[static_cast<std::size_t>(input) + k] = is_hit ? rpf_held(or_zero(record[(*columns)[k]]), least, most) : 0;
+      read_column(records + columns[k], stride_, count, block.values[static_cast<std::size_t>(input) + k],
+                  [&](float value, std::size_t i) { return hits[i] ? rpf_held(or_zero(value), least, most) : 0.0F; });
   };
-  if (reads_.normal) read(normal_, RPF_INPUT_NORMAL, -longest_normal, longest_normal);
-  if (reads_.albedo) read(albedo_, RPF_INPUT_ALBEDO, 0, 1);
-  if (!reads_.position) return;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double off = is_hit ? record[(*position_)[k]] - positions.median[k] : 0;
-    const float p = or_zero(static_cast<float>(off / positions.deviation));
-    inputs[RPF_INPUT_POSITION + k] = rpf_held(p, -farthest_position, farthest_position);
-  }
+  if (reads_.normal) read(*normal_, RPF_INPUT_NORMAL, -longest_normal, longest_normal);
+  if (reads_.albedo) read(*albedo_, RPF_INPUT_ALBEDO, 0, 1);
+  for (std::size_t k = 0; reads_.position && k < 3; ++k)
+    read_column(records + (*position_)[k], stride_, count, block.values[RPF_INPUT_POSITION + k],
+                [&, median = positions.median[k]](float value, std::size_t i) {
+                  const double off = hits[i] ? value - median : 0;
+                  return rpf_held(or_zero(static_cast<float>(off / positions.deviation)), -farthest_position,
+                                  farthest_position);
+                });
 }
 
 float RecordView::second_distance(const float* record, const PositionFacts& positions) const {
@@ -166,24 +176,32 @@ float RecordView::second_distance(const float* record, const PositionFacts& posi
   return kernel::rpf_log(1 + 4 * rpf_held(distance, 0, farthest_second_hit));
 }
 
-void RecordView::read_second_hit(const float* record, bool is_hit, const PositionFacts& positions,
-                                 float* inputs) const {
-  const bool is_hit_again = is_hit && is_second_hit(record);
-  inputs[RPF_INPUT_HIT2] = is_hit_again ? 1.0F : 0.0F;
+void RecordView::read_second_hits(const float* records, std::size_t count, const bool* hits,
+                                  const PositionFacts& positions, InputBlock& block) const {
+  bool again[block_records];
+  for (std::size_t i = 0; i < count; ++i) {
+    again[i] = hits[i] && is_second_hit(records + i * stride_);
+    block.values[RPF_INPUT_HIT2][i] = again[i] ? 1.0F : 0.0F;
+  }
   for (std::size_t k = 0; k < 3; ++k)
-    inputs[RPF_INPUT_NORMAL2 + k] =
-        is_hit_again ? rpf_held(record[(*normal2_)[k]], -longest_normal, longest_normal) : 0.0F;
-  if (reads_.second_distance) inputs[RPF_INPUT_DISTANCE2] = is_hit_again ? second_distance(record, positions) : 0;
+    read_column(
+        records + (*normal2_)[k], stride_, count, block.values[RPF_INPUT_NORMAL2 + k],
+        [&](float value, std::size_t i) { return again[i] ? rpf_held(value, -longest_normal, longest_normal) : 0.0F; });
+  for (std::size_t i = 0; reads_.second_distance && i < count; ++i)
+    block.values[RPF_INPUT_DISTANCE2][i] = again[i] ? second_distance(records + i * stride_, positions) : 0;
 }
 
-void RecordView::read(const float* record, const PositionFacts& positions, float* inputs) const {
-  const bool is_hit = this->is_hit(record);
-  read_first_hit(record, is_hit, positions, inputs);
-  if (reads_.second_hit) read_second_hit(record, is_hit, positions, inputs);
-  for (const Number& n : numbers_) {
-    const float u = record[n.column] - n.origin;
-    inputs[n.input] = centered(n.is_film ? u - floor_of(u) : u);
-  }
+void RecordView::read(const float* records, std::size_t count, const PositionFacts& positions,
+                      InputBlock& block) const {
+  bool hits[block_records];
+  for (std::size_t i = 0; i < count; ++i) hits[i] = is_hit(records + i * stride_);
+  read_first_hits(records, count, hits, positions, block);
+  if (reads_.second_hit) read_second_hits(records, count, hits, positions, block);
+  for (const Number& n : numbers_)
+    read_column(records + n.column, stride_, count, block.values[n.input], [&](float value, std::size_t /*i*/) {
+      const float u = value - n.origin;
+      return centered(n.is_film ? u - floor_of(u) : u);
+    });
 }
 
 }  // namespace rpf

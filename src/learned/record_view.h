@@ -7,11 +7,17 @@
 #include <vector>
 
 #include "frame/clean_frame.h"
+#include "frame/repack.h"
 #include "rpf_network.h"
 
 namespace rpf {
 
 struct PositionFacts;
+
+/// Inputs of some samples, input by input.
+struct InputBlock {
+  float values[RPF_INPUTS][block_records];
+};
 
 class RecordView {
  public:
@@ -25,8 +31,8 @@ class RecordView {
   bool any_hit(const SampleBuffer& samples) const;
   /// The same, that reads no other inputs than these, or others of their groups.
   RecordView only(const std::vector<int>& inputs) const;
-  /// The inputs from RPF_INPUT_NORMAL on that there are; the others are left as they are.
-  void read(const float* record, const PositionFacts& positions, float* inputs) const;
+  /// The inputs from RPF_INPUT_NORMAL on that there are, of `count` records; the others are left as they are.
+  void read(const float* records, std::size_t count, const PositionFacts& positions, InputBlock& block) const;
 
  private:
   using Columns = std::optional<std::array<std::size_t, 3>>;  ///< of a group, where all three are there
@@ -47,10 +53,13 @@ class RecordView {
   Reads reads_of(const std::vector<int>& inputs) const;
   bool is_hit(const float* record) const;
   bool is_second_hit(const float* record) const;  ///< of a sample that is a hit
-  void read_first_hit(const float* record, bool is_hit, const PositionFacts& positions, float* inputs) const;
-  void read_second_hit(const float* record, bool is_hit, const PositionFacts& positions, float* inputs) const;
+  void read_first_hits(const float* records, std::size_t count, const bool* hits, const PositionFacts& positions,
+                       InputBlock& block) const;
+  void read_second_hits(const float* records, std::size_t count, const bool* hits, const PositionFacts& positions,
+                        InputBlock& block) const;
   float second_distance(const float* record, const PositionFacts& positions) const;
 
+  std::size_t stride_ = 0;  ///< values of a record
   Columns normal_, albedo_, position_, normal2_, position2_;
   std::optional<std::size_t> hit_;
   std::vector<Number> numbers_;
