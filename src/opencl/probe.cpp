@@ -83,7 +83,9 @@ void probe_drivers() { ask({"list"}, to_answer, {}); }
 
 std::string probe_device(int index) {
   const Answer answer = ask({"test", std::to_string(index)}, to_answer, {});
-  return answer.kind == "ok" ? "" : parsed(answer.rest).rest;
+  if (answer.kind != "ok") return parsed(answer.rest).rest;
+  Verdicts(verdict_folder()).forget_failures();  // what failed may work again: the next run asks
+  return "";
 }
 
 void require_working_device(const std::string& wanted) {

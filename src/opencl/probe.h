@@ -10,8 +10,8 @@ namespace rpf {
 /// Whether the drivers can be loaded and list their devices; never remembered. Throws Error(device) where not.
 void probe_drivers();
 
-/// The self-test of a device, computed in a child; never remembered. Empty where it passes, else the first
-/// disagreement. Throws Error(device).
+/// The self-test of a device, computed in a child; never remembered. Empty where it passes, and then what failed before
+/// is asked again by the next run; else the first disagreement. Throws Error(device).
 std::string probe_device(int index);
 
 /// Whether the device that an index or a part of a name stands for works, remembered. Throws Error(device) where not,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -22,10 +23,12 @@ class Verdicts {
   std::optional<Verdict> find(const std::string& question) const;
   void keep(const std::string& question, const Verdict& verdict) const;
   void forget(const std::string& question) const;
+  void forget_failures() const;
 
  private:
   std::filesystem::path file_of(const std::string& question) const;
   void remove_old() const;
+  void remove_if(const std::function<bool(const std::filesystem::path&)>& unwanted) const;
 
   std::filesystem::path folder_;
 };

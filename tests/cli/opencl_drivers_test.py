@@ -246,6 +246,16 @@ class Drivers(unittest.TestCase):
                 self.expect_cpu("the compiler failed", ABORTS_AT="build", **rpf)
                 self.assertEqual(self.asked.read_text().split(), asked)  # verdicts are remembered
 
+    def test_what_failed_is_asked_again_once_devices_finds_that_it_works(self):
+        rpf = self.asking()
+        for fault in ("test", "build"):
+            self.expect(self.filter("opencl", ABORTS_AT=fault, **rpf), 5, "the compiler failed")
+            self.expect(self.filter("opencl", **rpf), 5, "last hour", "`rpf devices` asks again")
+            self.expect(self.run_rpf("devices", **rpf), 0)
+            self.expect(self.filter("opencl", **rpf), 0)
+            self.expect_same_bits()
+            shutil.rmtree(self.folder / "cache")
+
     def test_all_kernels_are_compiled_by_the_child_and_it_is_said_once(self):
         """A linker that says who started it: the program itself compiles nothing."""
         folder = self.folder / "tools"

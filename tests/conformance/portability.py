@@ -15,14 +15,16 @@ class Skipped(Exception):
 
 def installed(library, *packages):
     """The library of a driver; the packages are installed where it is not there yet."""
-    if not list(FOLDER.rglob(library)):
+    place, begun = FOLDER / "driver", FOLDER / "begun"  # begun: what a killed run leaves is no driver
+    if not place.exists():
+        shutil.rmtree(begun, ignore_errors=True)
         # --prefix: --target would leave out what is no Python.
-        pip = subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-warn-script-location", "--prefix", FOLDER, *packages],
+        pip = subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-warn-script-location", "--prefix", begun, *packages],
                              capture_output=True, text=True, check=False)
         if pip.returncode != 0:
-            shutil.rmtree(FOLDER, ignore_errors=True)
             raise Skipped(f"{' '.join(packages)} cannot be had from PyPI: {(pip.stderr.strip().splitlines() or ['?'])[-1]}")
-    return next(iter(FOLDER.rglob(library)))
+        begun.rename(place)
+    return next(iter(place.rglob(library)))
 
 
 def intel():

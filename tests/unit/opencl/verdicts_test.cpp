@@ -42,6 +42,14 @@ TEST_F(VerdictsTest, AreFoundByTheirQuestionInAnotherRun) {
   EXPECT_FALSE(verdicts().find("a"));
 }
 
+TEST_F(VerdictsTest, FailuresCanBeForgotten) {
+  verdicts().keep("good", {true, ""});
+  verdicts().keep("bad", {false, "it aborted"});
+  verdicts().forget_failures();
+  EXPECT_TRUE(verdicts().find("good"));
+  EXPECT_FALSE(verdicts().find("bad"));
+}
+
 TEST_F(VerdictsTest, HoldForAWeekOrAnHour) {
   verdicts().keep("good", {true, ""});
   verdicts().keep("bad", {false, "it aborted"});
