@@ -29,7 +29,8 @@ SCENE = """<scene version="3.0.0">
 def environment(folder, clone):
     """That of a reader who has just logged in, on Debian's own programs; ccache's variables are kept, a proxy's too."""
     kept = {name: value for name, value in os.environ.items() if not name.startswith(("RPF_", "XDG_", "POCL_", "OCL_"))}
-    return {**kept, "HOME": str(folder), "PATH": f"{folder}/venv/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin", "CCACHE_BASEDIR": str(clone)}
+    return {**kept, "HOME": str(folder), "PATH": f"{folder}/venv/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin", "CCACHE_BASEDIR": str(clone),
+            "SKBUILD_BUILD_DIR": "build/pip"}  # the second pip install builds nothing again
 
 
 def run(script, folder, clone):
