@@ -13,6 +13,8 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <system_error>
 
 #include "opencl/kernel_cache.h"
@@ -27,11 +29,10 @@ using Clock = std::chrono::steady_clock;
 /// What a driver may take to clean up after a whole answer.
 constexpr auto to_end = std::chrono::seconds(1);
 
-/// Of seconds: a machine with much else to do is not taken for a driver that hangs, for a child that works gets its
-/// share of it.
-bool is_hopeless(double waited, double worked, double limit) {
+/// Behind the limit. A machine with much else to do is not taken for a driver that hangs: that one wants no processor.
+bool is_hopeless(double waited, double wanted, double worked, double limit) {
   constexpr double least_share = 0.02, longest = 10;  // limits
-  return waited > limit && (worked < least_share * waited || worked > limit || waited > longest * limit);
+  return wanted < least_share * waited || worked > limit || waited > longest * limit;
 }
 
 std::string helper() {
@@ -128,9 +129,12 @@ class Child {
 
   ChildAnswer wait(std::chrono::seconds limit, const Check& check) {
     const auto start = Clock::now();
+    std::chrono::duration<double> waited{0}, wanted{0};  // wanted: a processor, whether it got one or not
     while (!has_ended() && !is_answered()) {
-      const std::chrono::duration<double> waited = Clock::now() - start;
-      if (is_hopeless(waited.count(), processor_seconds(), static_cast<double>(limit.count())))
+      const auto before = waited;
+      waited = Clock::now() - start;
+      if (wants_processor()) wanted += waited - before;
+      if (waited > limit && is_hopeless(waited.count(), wanted.count(), processor_seconds(), limit.count()))
         return {false, false, fmt::format("gave no answer in {:.0f} seconds", waited.count())};
       if (check) check();
       listen();
@@ -153,6 +157,20 @@ class Child {
     timespec used{};
     if (::clock_getcpuclockid(id_, &clock) != 0 || ::clock_gettime(clock, &used) != 0) return 0;
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+  }
+
+  /// Whether one of its threads runs, waits for a processor or for a disk.
+  bool wants_processor() const {
+    std::error_code gone;
+    std::filesystem::directory_iterator thread(fmt::format("/proc/{}/task", id_), gone);
+    for (; !gone && thread != std::filesystem::directory_iterator(); thread.increment(gone)) {
+      std::string text;
+      std::ifstream file(thread->path() / "stat");  // "ID (name) R ..."; a name may hold anything
+      if (!std::getline(file, text, '\0')) continue;
+      const std::size_t state = text.rfind(") ");
+      if (state != std::string::npos && std::strchr("RD", text[state + 2]) != nullptr) return true;
+    }
+    return false;
   }
 
   bool has_ended() {

@@ -17,6 +17,8 @@ SANITIZED = b"__asan_init" in RPF.read_bytes()
 
 # A driver that does something as soon as it is loaded, and leaves a line in $STARTS.
 DRIVER = """
+#define _GNU_SOURCE
+#include <sched.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -152,6 +154,21 @@ class Drivers(unittest.TestCase):
         """It gets a fourth of a processor for longer than a driver that does nothing would be waited for."""
         slow = self.driver("for (time_t end = time(0) + 24; time(0) < end; usleep(60000)) for (clock_t begin = clock(); clock() - begin < CLOCKS_PER_SEC / 50;) {}")
         self.expect(self.filter("opencl", **slow), 5, "no OpenCL device")
+
+    def test_a_driver_that_gets_almost_no_processor_does_not_hang(self):
+        """It works for longer than a driver that does nothing would be waited for, where others have three hundred times its share."""
+        cpu = min(os.sched_getaffinity(0))
+        starved = self.driver(f"""struct sched_param none = {{0}}; cpu_set_t all, one; CPU_ZERO(&one); CPU_SET({cpu}, &one);
+            sched_getaffinity(0, sizeof all, &all); sched_setaffinity(0, sizeof one, &one); sched_setscheduler(0, SCHED_IDLE, &none);
+            for (time_t end = time(0) + 24; time(0) < end;) {{}}
+            sched_setscheduler(0, SCHED_OTHER, &none); sched_setaffinity(0, sizeof all, &all)""")
+        others = [subprocess.Popen(["taskset", "-c", str(cpu), "sh", "-c", "while :; do :; done"]) for _ in range(3)]
+        try:
+            self.expect(self.filter("opencl", **starved), 5, "no OpenCL device")
+        finally:
+            for other in others:
+                other.kill()
+                other.wait()
 
     def compile(self, text, library, *options):
         subprocess.run(["cc", "-shared", "-fPIC", "-x", "c", "-o", library, "-", *options], input=text, text=True, check=True)
