@@ -19,7 +19,7 @@ SCENE = """<scene version="3.0.0">
 <sensor type="thinlens"><float name="aperture_radius" value="0.3"/><float name="focus_distance" value="6"/>
   <transform name="to_world"><lookat origin="0 2 6" target="0 0.7 0" up="0 1 0"/></transform>
   <film type="hdrfilm"><integer name="width" value="48"/><integer name="height" value="36"/><rfilter type="box"/></film></sensor>
-<shape type="sphere"><point name="center" y="1"/></shape>
+<shape type="sphere"><point name="center" x="0" y="1" z="0"/></shape>
 <shape type="rectangle"><transform name="to_world"><scale value="9"/><rotate x="1" angle="-90"/></transform></shape>
 <emitter type="constant"/>
 </scene>
