@@ -8,9 +8,14 @@
 
 namespace rpf {
 
-/// The names of the methods, in the order of Method: "rpf", "gaussian", "bilateral", "cross-bilateral", "learned".
+/// The names of the methods, in the order of Method: "rpf", "gaussian", "bilateral", "cross-bilateral", "learned",
+/// "nlm", "gem", "sbf".
 std::vector<std::string> method_names();
 std::string name_of(Method method);
+
+/// Whether a method filters pixels (algorithm.md, section 9): it looks at means and variances, not at single samples,
+/// and needs two samples in a pixel.
+bool filters_pixels(Method method);
 
 /// The settings of a method: box widths, sigmas and features that did well for it (docs/methods.md); whatever it does
 /// not choose has its default. Throws Error(usage) for an unknown name, naming those there are.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "rpf/conformance.h"
+#include "rpf/density.h"
 #include "rpf/devices.h"
 #include "rpf/error.h"
 #include "rpf/explain.h"

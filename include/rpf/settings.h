@@ -23,20 +23,24 @@ enum class Profile {
 
 /// Where the weights of a sample's neighbors come from (algorithm.md, sections 3 to 8). Beside RPF the thesis's
 /// baselines, whose weights are fixed: neighbors are all samples in the box, and none is drawn, rejected or measured;
-/// and the learned estimator (docs/network.md).
+/// the learned estimator (docs/network.md); and contemporaries of RPF that filter pixels (section 9).
 enum class Method {
   rpf,              ///< from what colors and features say about the random parameters
   gaussian,         ///< from the distance on the film
   bilateral,        ///< and from the difference in color
   cross_bilateral,  ///< and from the differences in features: what RPF would be without its statistics
-  learned           ///< from a network that looks at every sample
+  learned,          ///< from a network that looks at every sample
+  nlm,              ///< of pixels: from the likeness of the patches around them (Rousselle, Knaus and Zwicker 2012)
+  gem,  ///< of pixels: Gaussians, each as wide as bias and variance allow (Rousselle, Knaus and Zwicker 2011)
+  sbf   ///< of pixels: cross-bilateral, each as wide as Stein's risk says (Li, Wu and Chuang 2012)
 };
 
 /// What filter() is to do.
 struct Settings {
   /// Methods with fixed weights know box_widths, the sigmas, features, clamp_negative and everything from
-  /// filter_features on; learned knows model, random, features, clamp_negative and everything from filter_features on.
-  /// method_settings() (rpf/methods.h) has box widths and sigmas that suit a method.
+  /// filter_features on; nlm knows damping and window, gem gamma, sbf features, and these three the clamps and
+  /// everything from filter_features on; learned knows model, random, features, clamp_negative and everything from
+  /// filter_features on. method_settings() (rpf/methods.h) has box widths and sigmas that suit a method.
   Method method = Method::rpf;
   /// Of learned: the name of a network in the library (presets.h), or a network file.
   std::string model = "balanced";
@@ -80,6 +84,12 @@ struct Settings {
   // Methods with fixed weights. The standard deviation on the film is a quarter of the box width, in pixels.
   float sigma_color = 30;      ///< in the unit of the radiance (linear, over R, G and B together); 1e-30 .. 1e30
   float sigma_feature = 0.5F;  ///< in standard deviations of a group of features over the frame; 1e-6 .. 1e6
+
+  // Of nlm.
+  float damping = 0.45F;  ///< k of (9.4): larger takes patches for more alike; 1e-3 .. 1e3
+  int window = 21;        ///< width of the box that neighbors come from, pixels: odd, 1 .. 255
+  // Of gem.
+  float gamma = 0.2F;  ///< larger holds wide Gaussians back: 0.01 .. 0.5
 
   /// Also filter the features with the weights of the color: Result::features.
   bool filter_features = false;

@@ -33,7 +33,10 @@ void bind_published(nb::class_<Settings>& c) {
       .def_rw("reject_second_hit", &Settings::reject_second_hit)
       .def_rw("bias_correction", &Settings::bias_correction)
       .def_rw("sigma_color", &Settings::sigma_color, "Linear radiance, over R, G and B together.")
-      .def_rw("sigma_feature", &Settings::sigma_feature, "Standard deviations of a group over the frame.");
+      .def_rw("sigma_feature", &Settings::sigma_feature, "Standard deviations of a group over the frame.")
+      .def_rw("damping", &Settings::damping, "Of nlm: larger takes patches for more alike.")
+      .def_rw("gamma", &Settings::gamma, "Of gem: larger holds wide Gaussians back.")
+      .def_rw("window", &Settings::window, "Of nlm: width of the box that neighbors come from, pixels.");
 }
 
 void bind_common(nb::class_<Settings>& c) {
@@ -95,7 +98,10 @@ void bind_settings(nb::module_& module) {
       .value("gaussian", Method::gaussian)
       .value("bilateral", Method::bilateral)
       .value("cross_bilateral", Method::cross_bilateral)
-      .value("learned", Method::learned);
+      .value("learned", Method::learned)
+      .value("nlm", Method::nlm)
+      .value("gem", Method::gem)
+      .value("sbf", Method::sbf);
   auto c = nb::class_<Settings>(module, "Settings",
                                 "Everything that can be chosen; each is an option of the command with the same name "
                                 "(docs/commands.md). Settings() is the published algorithm.");

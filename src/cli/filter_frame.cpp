@@ -40,6 +40,12 @@ void print_fixed_weights(const Report& report, Method method) {
   }
 }
 
+/// What a method that filters pixels did.
+void print_pixel_method(const Report& report, Method method) {
+  print("backend {}\nmethod: {}\nfeatures: {}\nenergy {:.4f}\n", report.backend, name_of(method),
+        listed(report.features), report.passes.front().energy);
+}
+
 void print_learned(const Report& report) {
   print("backend {}\nnetwork: {} ({})\nrandom parameters: {}\nfeatures: {}\n", report.backend, report.model,
         report.model_hash, listed(report.random), listed(report.features));
@@ -148,6 +154,8 @@ void print_report(const Report& report, Method method) {
     print_published(report);
   else if (method == Method::learned)
     print_learned(report);
+  else if (filters_pixels(method))
+    print_pixel_method(report, method);
   else
     print_fixed_weights(report, method);
 }

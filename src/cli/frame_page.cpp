@@ -16,6 +16,7 @@
 #include "report/html_page.h"
 #include "report/viewer.h"
 #include "rpf/error.h"
+#include "rpf/methods.h"
 #include "rpf/metrics.h"
 
 namespace rpf::cli {
@@ -218,7 +219,8 @@ class FramePage {
 
   /// A column a pass; methods differ in what they know of one.
   report::Table passes() const {
-    const bool published = job_.run->method == Method::rpf, learned = job_.run->method == Method::learned;
+    const bool published = job_.run->method == Method::rpf,
+               at_once = job_.run->method == Method::learned || filters_pixels(job_.run->method);
     report::Table table{{"means over the pixels"}, {}, 1};
     const auto add = [&](const char* name, const char* format, const auto& value) {
       std::vector<std::string> cells = {name};
@@ -228,8 +230,8 @@ class FramePage {
     };
     for (std::size_t i = 0; i < job_.run->report.passes.size(); ++i)
       table.header.push_back(fmt::format("pass {}", i + 1));
-    if (!learned) add("box width", "{}", [](const PassReport& p) { return p.box_width; });
-    if (!learned) add("neighbors", "{:.1f}", [](const PassReport& p) { return p.neighbors; });
+    if (!at_once) add("box width", "{}", [](const PassReport& p) { return p.box_width; });
+    if (!at_once) add("neighbors", "{:.1f}", [](const PassReport& p) { return p.neighbors; });
     if (published) add("acceptance", "{:.3f}", [](const PassReport& p) { return p.acceptance; });
     if (published) add("W", "{:.3f}", [](const PassReport& p) { return p.fraction_random; });
     if (published) add("alpha", "{:.3f}", [](const PassReport& p) { return p.alpha; });

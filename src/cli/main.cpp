@@ -24,6 +24,7 @@ constexpr const char* footer = R"(Examples:
   rpf report render.samples.exr filtered.exr -o page.html
   rpf merge seed-1.samples.exr seed-2.samples.exr -o both.samples.exr
   rpf explain render.samples.exr -o explained --pixel 120,80
+  rpf density render.samples.exr --spp 4 -o density.exr
   rpf convert theirs.exr -o ours.samples.exr
   rpf scene dof -o dof.samples.exr
   rpf bench frames render.samples.exr --set all='--backend opencl' --set small='--backend opencl --boxes 21,11,5'
@@ -47,6 +48,7 @@ int run(int argc, char** argv) {
       {"report", add_report_command(app)},     {"explain", add_explain_command(app)},
       {"selftest", add_selftest_command(app)}, {"bench", add_bench_command(app)},
       {"study", add_study_command(app)},       {"manual", add_manual_command(app)},
+      {"density", add_density_command(app)},
   };
   try {
     app.parse(argc, argv);

@@ -25,9 +25,11 @@ const Limited limited[] = {
      {Method::rpf}},
     {{"--boxes"}, {Method::rpf, Method::gaussian, Method::bilateral, Method::cross_bilateral}},
     {{"--random"}, {Method::rpf, Method::learned}},
-    {{"--features"}, {Method::rpf, Method::cross_bilateral, Method::learned}},
+    {{"--features"}, {Method::rpf, Method::cross_bilateral, Method::learned, Method::sbf}},
     {{"--sigma-color"}, {Method::bilateral, Method::cross_bilateral}},
     {{"--sigma-feature"}, {Method::cross_bilateral}},
+    {{"--damping", "--window"}, {Method::nlm}},
+    {{"--gamma"}, {Method::gem}},
 };
 
 bool knows(const Limited& group, Method method) {
@@ -63,7 +65,9 @@ void add_method_options(CLI::App& app, FilterOptions& o) {
          "--method", o.method,
          "learned: weights from a network; rpf: Random Parameter Filtering as published; gaussian: weights from the "
          "distance on the film; bilateral: and from the color; cross-bilateral: and from the features. gaussian and "
-         "bilateral also filter any image")
+         "bilateral also filter any image. Of pixels: nlm: from the likeness of patches; gem: Gaussians, each as wide "
+         "as "
+         "bias and variance allow; sbf: cross-bilateral, each as wide as Stein's risk says")
       ->check(CLI::IsMember(method_names()))
       ->default_str("learned; rpf where an option asks for it");
   restrict_to(app.add_option("--sigma-color", o.sigma_color,
@@ -73,6 +77,14 @@ void add_method_options(CLI::App& app, FilterOptions& o) {
   restrict_to(app.add_option("--sigma-feature", o.settings.sigma_feature,
                              "Standard deviation of a feature, 1 is that of its group over the frame"),
               ranges::sigma_feature)
+      ->capture_default_str();
+  restrict_to(app.add_option("--damping", o.settings.damping, "k of nlm: larger takes patches for more alike"),
+              ranges::damping)
+      ->capture_default_str();
+  restrict_to(app.add_option("--window", o.settings.window, "Box that nlm takes neighbors from, pixels, odd"),
+              ranges::box_width)
+      ->capture_default_str();
+  restrict_to(app.add_option("--gamma", o.settings.gamma, "Of gem: larger holds wide Gaussians back"), ranges::gamma)
       ->capture_default_str();
   app.parse_complete_callback([&app, &o] { check_given_options(app, method_settings(o.method).method); });
 }

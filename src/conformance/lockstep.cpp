@@ -7,11 +7,13 @@
 
 #include "conformance/comparison.h"
 #include "conformance/estimator_lockstep.h"
+#include "conformance/step_lockstep.h"
 #include "cpu/cpu_backend.h"
 #include "frame/prepare.h"
 #include "frame/resolve.h"
 #include "opencl/opencl_backend.h"
 #include "rpf/filter.h"
+#include "rpf/methods.h"
 #include "rpf_math.h"
 
 namespace rpf {
@@ -122,8 +124,12 @@ class Lockstep {
 
 CaseResult run_in_lockstep(const ConformanceCase& c, const std::string& device, int threads) {
   const auto start = std::chrono::steady_clock::now();
-  const Comparison comparison =
-      c.network ? compare_estimates(c, samples_of(c), device, threads) : Lockstep(c, device, threads).run();
+  const auto compare = [&] {
+    if (c.network) return compare_estimates(c, samples_of(c), device, threads);
+    if (filters_pixels(c.settings.method)) return compare_steps(c, samples_of(c), device, threads);
+    return Lockstep(c, device, threads).run();
+  };
+  const Comparison comparison = compare();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   return {c.name, comparison.stages(), comparison.first_difference(), seconds.count()};
 }

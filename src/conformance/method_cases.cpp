@@ -60,6 +60,33 @@ void add_method_frames(MethodCases& list) {
   list.add("extreme/nan-film", nowhere);
 }
 
+/// Frames for methods that filter pixels, which need two samples in some.
+void add_pixel_frames(MethodCases& list) {
+  for (const int samples : {2, 3, 4, 16, CaseList::varying}) {
+    ConformanceCase c = list.basic(samples);
+    c.quick = samples == 4 || samples == CaseList::varying;
+    list.add(count_name(samples), c);
+  }
+  constexpr int sizes[][2] = {{1, 1}, {1, 17}, {17, 1}, {17, 5}, {300, 3}};
+  for (const auto& size : sizes) {
+    ConformanceCase c = list.basic();
+    c.options.width = size[0];
+    c.options.height = size[1];
+    list.add(fmt::format("size/{}x{}", size[0], size[1]), c);
+  }
+  for (const auto& [name, change] : extremes()) {
+    ConformanceCase c = list.basic();
+    c.change = change;
+    list.add("extreme/" + name, c);
+  }
+}
+
+void add_windows_of_patches(MethodCases& list) {
+  for (const int width : {1, 3, 55}) list.add(fmt::format("window/{}", width), [&](Settings& s) { s.window = width; });
+  for (const float damping : {1e-3F, 0.1F, 1e3F})
+    list.add(fmt::format("damping/{:g}", damping), [&](Settings& s) { s.damping = damping; });
+}
+
 void add_colors(MethodCases& list) {
   for (const float sigma : {1e-30F, 1e-3F, 1e30F})
     list.add(fmt::format("sigma-color/{:g}", sigma), [&](Settings& s) { s.sigma_color = sigma; });
@@ -68,10 +95,18 @@ void add_colors(MethodCases& list) {
 void add_features(MethodCases& list) {
   for (const float sigma : {1e-6F, 1e6F})
     list.add(fmt::format("sigma-feature/{:g}", sigma), [&](Settings& s) { s.sigma_feature = sigma; });
+}
+
+void add_feature_groups(MethodCases& list) {
   for (const char* group : {"N", "P2"})
     list.add(fmt::format("features/{}", group), [&](Settings& s) { s.features = {group}; });
   list.add("features/none", [](Settings& s) { s.features = std::vector<std::string>{}; });
   list.add("features/all", [](Settings& s) { s.features.reset(); });
+}
+
+void add_gammas(MethodCases& list) {
+  for (const float gamma : {0.01F, 0.5F})
+    list.add(fmt::format("gamma/{:g}", gamma), [&](Settings& s) { s.gamma = gamma; });
 }
 
 void add_common_settings(MethodCases& list) {
@@ -86,10 +121,21 @@ void add_methods(CaseList& all) {
     const Method method = method_settings(name).method;
     if (method == Method::rpf || method == Method::learned) continue;  // those have cases of their own
     MethodCases list(all, name);
+    if (filters_pixels(method)) {
+      add_pixel_frames(list);
+      add_common_settings(list);
+      if (method == Method::nlm) add_windows_of_patches(list);
+      if (method == Method::gem) add_gammas(list);
+      if (method == Method::sbf) add_feature_groups(list);
+      continue;
+    }
     add_method_frames(list);
     add_common_settings(list);
     if (method != Method::gaussian) add_colors(list);
-    if (method == Method::cross_bilateral) add_features(list);
+    if (method == Method::cross_bilateral) {
+      add_features(list);
+      add_feature_groups(list);
+    }
   }
 }
 

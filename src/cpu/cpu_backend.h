@@ -27,6 +27,9 @@ class CpuBackend : public Backend {
   std::vector<float> estimate(const Window& region, const EstimateProgress& progress) override;
   std::vector<EstimateStage> trace_estimate(const Window& region) override;
   std::uint64_t estimate_bytes(const EstimatePlan& plan, const Window& window, std::uint64_t samples) const override;
+  std::vector<float> run_steps(const PixelPlan& plan, std::vector<float> planes,
+                               const EstimateProgress& progress) override;
+  std::uint64_t step_bytes(const PixelPlan& plan) const override;
 
   struct Workspace;
 

@@ -104,7 +104,7 @@ PreparedFrame prepare(SampleBuffer read, const Settings& settings) {
   frame.records = repack(samples, variables.size(), make);
   frame.has_missing = std::any_of(frame.records.begin(), frame.records.end(), [](float x) { return std::isnan(x); });
   frame.first_sample = std::move(samples.first_sample);
-  if (settings.method == Method::cross_bilateral)
+  if (settings.method == Method::cross_bilateral || settings.method == Method::sbf)
     result.facts.feature_spread = spread_of_features(frame, result.facts.variables);
   return std::move(result);
 }

@@ -98,7 +98,9 @@ std::vector<std::string> select_known(const std::vector<std::string>& slots,
 }  // namespace
 
 Selection select_channels(const SampleLayout& layout, const Settings& settings) {
-  if (settings.method == Method::gaussian || settings.method == Method::bilateral) return {};
+  if (settings.method == Method::gaussian || settings.method == Method::bilateral ||
+      settings.method == Method::nlm || settings.method == Method::gem)
+    return {};
   const auto random = slots_where(layout, is_random_slot);
   const auto features = slots_where(layout, is_feature_slot);
   Selection selection;

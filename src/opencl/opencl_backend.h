@@ -43,6 +43,10 @@ class OpenClBackend : public Backend {
   std::vector<float> estimate(const Window& region, const EstimateProgress& progress) override;
   std::vector<EstimateStage> trace_estimate(const Window& region) override;
   std::uint64_t estimate_bytes(const EstimatePlan& plan, const Window& window, std::uint64_t samples) const override;
+  void get_ready_steps(const std::function<void()>& check) override;
+  std::vector<float> run_steps(const PixelPlan& plan, std::vector<float> planes,
+                               const EstimateProgress& progress) override;
+  std::uint64_t step_bytes(const PixelPlan& plan) const override;
 
  private:
   /// What stays on the device for a pass: the plan's tables, or the coordinates of fixed weights.

@@ -18,12 +18,17 @@ constexpr NamedMethod all_methods[] = {{"rpf", Method::rpf},
                                        {"gaussian", Method::gaussian},
                                        {"bilateral", Method::bilateral},
                                        {"cross-bilateral", Method::cross_bilateral},
-                                       {"learned", Method::learned}};
+                                       {"learned", Method::learned},
+                                       {"nlm", Method::nlm},
+                                       {"gem", Method::gem},
+                                       {"sbf", Method::sbf}};
 
 Settings settings_of(Method method) {
   Settings s;
   s.method = method;
   if (method == Method::rpf || method == Method::learned) return s;
+  if (method == Method::sbf) s.features = std::vector<std::string>{"first"};
+  if (filters_pixels(method)) return s;
   s.box_widths = {method == Method::cross_bilateral ? 9 : 5};
   s.features = std::vector<std::string>{"first"};
   return s;
@@ -38,6 +43,8 @@ std::vector<std::string> method_names() {
 }
 
 std::string name_of(Method method) { return all_methods[static_cast<std::size_t>(method)].name; }
+
+bool filters_pixels(Method method) { return method == Method::nlm || method == Method::gem || method == Method::sbf; }
 
 Settings method_settings(const std::string& name) {
   for (const NamedMethod& m : all_methods)

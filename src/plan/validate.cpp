@@ -46,6 +46,9 @@ void validate(const Settings& s) {
   require("--redraws", s.redraws, ranges::redraws);
   require("--sigma-color", s.sigma_color, ranges::sigma_color);
   require("--sigma-feature", s.sigma_feature, ranges::sigma_feature);
+  require("--damping", s.damping, ranges::damping);
+  require("--window", s.window, ranges::box_width);
+  require("--gamma", s.gamma, ranges::gamma);
   if (s.threads != 0) require("--threads", s.threads, ranges::threads);  // 0: all cores
 }
 

@@ -20,6 +20,9 @@ std::unique_ptr<Backend> make_backend(const Settings& settings);
 void get_ready_estimate(std::unique_ptr<Backend>& backend, const Settings& settings, const EstimatePlan& plan,
                         ProgressMeter& meter);
 
+/// The same for the steps of a method that filters pixels.
+void get_ready_steps(std::unique_ptr<Backend>& backend, const Settings& settings, ProgressMeter& meter);
+
 /// The same for the passes of a plan, and load(). `meter` also watches the backend.
 void load_backend(std::unique_ptr<Backend>& backend, const Settings& settings, const Frame& frame,
                   std::vector<float> colors, const Plan& plan, ProgressMeter& meter);

@@ -6,7 +6,7 @@
 #include "frame/resolve.h"
 #include "learned/network_file.h"
 #include "learned/observe.h"
-#include "rpf/error.h"
+#include "rpf/methods.h"
 #include "run/backends.h"
 #include "run/estimate_bands.h"
 #include "run/informative.h"
@@ -49,6 +49,21 @@ Image image_of(const Pixels& pixels, const PreparedFrame& prepared, const Image&
   return image;
 }
 
+struct ValueRange {
+  float least = 0, most = 0;
+};
+
+/// Of a carried channel over all samples.
+ValueRange range_of(const PreparedFrame& prepared, std::size_t channel) {
+  ValueRange range;
+  for (std::size_t i = channel; i < prepared.colors.size(); i += prepared.facts.carried) {
+    if (i == channel) range = {prepared.colors[i], prepared.colors[i]};
+    range.least = std::min(range.least, prepared.colors[i]);
+    range.most = std::max(range.most, prepared.colors[i]);
+  }
+  return range;
+}
+
 /// Channels of the image proper: R, G, B, and A where there is one. The features follow.
 std::size_t color_channels(const PreparedFrame& prepared) {
   const auto& names = prepared.carried_names;
@@ -76,11 +91,15 @@ class Run {
     }
     prepared_ = prepare(std::move(samples), settings);
     if (settings.method == Method::rpf && settings.drop_uninformative) drop_uninformative(prepared_, settings);
-    plan_ = make_plan(prepared_.facts, settings);
+    if (filters_pixels(settings.method))
+      pixel_plan_ = make_pixel_plan(prepared_.facts, settings);
+    else
+      plan_ = make_plan(prepared_.facts, settings);
   }
 
   Result finish(const PassObserver& before_pass) {
-    return settings_.method == Method::learned ? estimate() : run_passes(before_pass);
+    if (settings_.method == Method::learned) return estimate();
+    return filters_pixels(settings_.method) ? filter_pixels() : run_passes(before_pass);
   }
 
  private:
@@ -121,15 +140,42 @@ class Run {
       place(backend_->estimate(band, [&](double part) { meter.add_part(share * part); }), band, pixels);
     }
     Result result;
+    result.report.model = estimate_plan_.network->name;
+    result.report.model_hash = estimate_plan_.network->hash;
+    describe_at_once(result, pixels, plain_energy, meter);
+    return result;
+  }
+
+  /// A method that filters pixels, the whole frame whatever the crop.
+  Result filter_pixels() {
+    ProgressMeter meter(control_);
+    const double plain_energy = energy_of_means(prepared_.frame, prepared_.facts.crop);
+    get_ready_steps(backend_, settings_, meter);
+    const std::vector<float> planes =
+        backend_->run_steps(pixel_plan_, pixel_planes(prepared_, pixel_plan_.inputs, pixel_plan_.planes),
+                            [&](double part) { meter.add_part(part); });
+    const std::size_t carried = prepared_.facts.carried, count = pixel_plan_.pixels();
+    const float* first = planes.data() + pixel_plan_.result * count;
+    Pixels pixels(count * carried);
+    for (std::size_t c = 0; c < carried; ++c) {
+      const ValueRange range = range_of(prepared_, c);  // rounding must not leave it: a float has no room above it
+      for (std::size_t p = 0; p < count; ++p)
+        pixels[p * carried + c] =
+            prepared_.frame.samples(p) > 0 ? std::clamp(first[c * count + p], range.least, range.most) : 0;
+    }
+    Result result;
+    describe_at_once(result, pixels, plain_energy, meter);
+    return result;
+  }
+
+  /// The report of what has no passes.
+  void describe_at_once(Result& result, const Pixels& pixels, double plain_energy, const ProgressMeter& meter) {
     PassReport report;
-    const double kept = energy(pixels, facts);
+    const double kept = energy(pixels, prepared_.facts);
     report.energy = kept == plain_energy ? 1 : kept / plain_energy;
     report.seconds = result.report.seconds = meter.seconds();
     result.report.passes.push_back(report);
-    result.report.model = estimate_plan_.network->name;
-    result.report.model_hash = estimate_plan_.network->hash;
     describe(result, pixels);
-    return result;
   }
 
   void place(const std::vector<float>& part, const Window& band, Pixels& pixels) const {
@@ -179,6 +225,7 @@ class Run {
   PreparedFrame prepared_;
   Plan plan_;
   EstimatePlan estimate_plan_;
+  PixelPlan pixel_plan_;
   std::unique_ptr<Backend> backend_;  ///< last: it refers to frame and plan
 };
 

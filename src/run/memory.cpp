@@ -10,6 +10,7 @@
 #include "rpf/error.h"
 #include "rpf/filter.h"
 #include "rpf/io.h"
+#include "rpf/methods.h"
 #include "run/backends.h"
 #include "run/estimate_bands.h"
 #include "run/threads.h"
@@ -42,12 +43,23 @@ FrameFacts facts_of(const FrameSize& size, const SampleLayout& layout, const Set
   return facts;
 }
 
+std::uint64_t pixel_method_need(const FrameSize& size, const SampleLayout& layout, std::uint64_t room, FrameFacts facts,
+                                const Settings& settings) {
+  facts.width = std::max(size.width, 1);
+  facts.height = static_cast<int>(size.pixels / static_cast<std::uint64_t>(facts.width));
+  const PixelPlan plan = make_pixel_plan(facts, settings);
+  const std::uint64_t floats = sample_floats(layout.size(), room, facts.variables.count(), facts.carried);
+  return size.samples * word * floats + size.pixels * (pixel_bytes(facts.carried) + word * plan.planes) +
+         make_backend(settings)->step_bytes(plan);
+}
+
 /// `room`: columns that the buffer of values can hold.
 std::uint64_t memory_need(const FrameSize& size, const SampleLayout& layout, std::uint64_t room,
                           const Settings& settings) {
   if (settings.method == Method::learned)
     return estimate_bands(size, layout, room, settings, *make_backend(settings)).bytes;
   const FrameFacts facts = facts_of(size, layout, settings);
+  if (filters_pixels(settings.method)) return pixel_method_need(size, layout, room, facts, settings);
   Settings without_crop = settings;
   without_crop.crop.reset();
   const Plan plan = make_plan(facts, without_crop);

@@ -58,6 +58,17 @@ void describe_fixed_weights(const Settings& settings, Metadata& m) {
       fmt::format("clamp-negative={} clamp-infinite={}", settings.clamp_negative, settings.clamp_infinite);
 }
 
+/// What a method that filters pixels was told.
+void describe_pixel_method(const Settings& settings, Metadata& m) {
+  if (settings.method == Method::nlm) {
+    m["rpf:damping"] = settings.damping;
+    m["rpf:window"] = std::int32_t{settings.window};
+  }
+  if (settings.method == Method::gem) m["rpf:gamma"] = settings.gamma;
+  m["rpf:choices"] =
+      fmt::format("clamp-negative={} clamp-infinite={}", settings.clamp_negative, settings.clamp_infinite);
+}
+
 }  // namespace
 
 Metadata provenance(Metadata input, const Settings& settings, const Report& report) {
@@ -72,6 +83,8 @@ Metadata provenance(Metadata input, const Settings& settings, const Report& repo
     describe_rpf(settings, report, m);
   else if (settings.method == Method::learned)
     describe_learned(settings, report, m);
+  else if (filters_pixels(settings.method))
+    describe_pixel_method(settings, m);
   else
     describe_fixed_weights(settings, m);
   std::vector<std::string> notes;

@@ -10,6 +10,7 @@
 #include "frame/frame.h"
 #include "learned/estimate_plan.h"
 #include "pass.h"
+#include "plan/pixel_plan.h"
 #include "plan/plan.h"
 #include "seam/trace.h"
 
@@ -65,6 +66,17 @@ class Backend {
   virtual std::vector<EstimateStage> trace_estimate(const Window& region) = 0;
   /// Peak bytes of the backend's own memory in estimate(), of a window (window_around()) with so many samples.
   virtual std::uint64_t estimate_bytes(const EstimatePlan& plan, const Window& window, std::uint64_t samples) const = 0;
+
+  // A method that filters pixels, in place of all of the above.
+
+  /// run_steps() compiles nothing afterwards; `check` is called now and then. Throws Error(device).
+  virtual void get_ready_steps(const std::function<void()>& /*check*/) {}
+  /// All planes after the plan's steps, [plane][pixel]; `planes` are the plan's inputs. Calls `progress` between
+  /// bounded pieces of work with the part of the whole that each was.
+  virtual std::vector<float> run_steps(const PixelPlan& plan, std::vector<float> planes,
+                                       const EstimateProgress& progress) = 0;
+  /// Bytes that run_steps() takes beside the planes.
+  virtual std::uint64_t step_bytes(const PixelPlan& plan) const = 0;
 
  protected:
   std::function<void()> check_;  ///< empty: nobody watches

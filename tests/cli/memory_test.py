@@ -77,6 +77,7 @@ class Memory(unittest.TestCase):
                 "side by side": ["compare", self.picture, self.picture, self.picture, "--side-by-side", self.folder / "out.png"],
                 "convert": ["convert", self.samples, "-o", output],
                 "merge": ["merge", self.samples, other, "-o", output],
+                "density": ["density", self.samples, "-o", output],
                 "info": ["info", self.samples],
                 "report": ["report", self.samples, self.samples.with_name("mean.exr"), self.samples.with_name("mean.exr"), "-o", self.folder / "page.html", "-q"],
                 "explain": ["explain", self.samples, "-o", self.folder / "explained", "--box", "3", "-q"]}

@@ -51,11 +51,13 @@ class MessagesTest(CommandCase):
     RANGES = {"--threads": ("1", "1048576"), "--max-memory": ("1", "1073741824"), "--noise": ("1e-12", "1e+12"), "--bins": ("3", "31"), "--redraws": ("0", "15"),
               "--samples-factor": ("1e-09", "1000000"), "--max-samples": ("1", "4294967295"),
               "--alpha-factor": ("0", "1000000"), "--position-scale": ("1e-06", "1000000"), "--seed": ("0", "4294967295"),
-              "--sigma-color": ("1e-30", "1e+30"), "--sigma-feature": ("1e-06", "1000000"), "--boxes": ("1", "255")}
+              "--sigma-color": ("1e-30", "1e+30"), "--sigma-feature": ("1e-06", "1000000"), "--boxes": ("1", "255"),
+              "--damping": ("0.001", "1000"), "--window": ("1", "255"), "--gamma": ("0.01", "0.5")}
 
     def test_every_number_of_the_filter(self):
         for option, (least, most) in self.RANGES.items():
-            method = ["--method", "cross-bilateral"] if "sigma" in option else []
+            known_by = {"--damping": "nlm", "--window": "nlm", "--gamma": "gem"}.get(option, "cross-bilateral" if "sigma" in option else "")
+            method = ["--method", known_by] if known_by else []
             for value in ("-1", "1e40", "all", "nan", "inf", "0x8", "1,5", "9" * 300):
                 if option == "--boxes" and value == "1,5":
                     continue

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "arbitrary.h"
+#include "rpf/methods.h"
 #include "rpf/scene.h"
 #include "tolerances.h"
 
@@ -15,11 +16,9 @@ using namespace test;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float far_away = 1e7F;
 
-// Far from the origin, of any brightness, with values that are none.
-RC_GTEST_PROP(Backends, GiveTheSameBitsAtAllExtremesTogether, ()) {
-  if (backend_under_test() == "cpu") RC_SUCCEED("this is the reference");
+/// Far from the origin, of any brightness, with values that are none.
+SampleBuffer any_extreme_frame() {
   SampleBuffer samples = any_frame();
-  Settings settings = any_settings();
   scale_radiance(samples, static_cast<float>(std::pow(10.0, *rc::gen::inRange(-44, 38))));
   move_world(samples, far_away, -far_away, 0);
   for (int bad = 0; bad < 20; ++bad) {
@@ -27,9 +26,26 @@ RC_GTEST_PROP(Backends, GiveTheSameBitsAtAllExtremesTogether, ()) {
         std::vector<std::string>{"R", "B", "film.X", "random.time", "feature.N.X", "feature.albedo.R"});
     value_of(samples, any_sample(samples), slot) = *rc::gen::element(-1e30F, infinity, NAN, 1e-42F, -0.0F, 1e30F);
   }
+  return samples;
+}
+
+RC_GTEST_PROP(Backends, GiveTheSameBitsAtAllExtremesTogether, ()) {
+  if (backend_under_test() == "cpu") RC_SUCCEED("this is the reference");
+  const SampleBuffer samples = any_extreme_frame();
+  Settings settings = any_settings();
   const std::vector<float> device = filtered(samples, settings);
   settings.backend = "cpu";
   RC_ASSERT(difference(device, filter(samples, settings).image.pixels, 24) == "");
+}
+
+RC_GTEST_PROP(Backends, FilterPixelsToTheSameFiniteBitsAtAllExtremesTogether, ()) {
+  const SampleBuffer samples = any_extreme_frame();
+  Settings settings = method_settings(*rc::gen::element<std::string>("nlm", "gem", "sbf"));
+  settings.backend = backend_under_test();
+  const std::vector<float> found = filtered(samples, settings);
+  RC_ASSERT(not_finite(found) == "");
+  settings.backend = "cpu";
+  RC_ASSERT(difference(found, filter(samples, settings).image.pixels, 24) == "");
 }
 
 class PlainScene : public testing::TestWithParam<const char*> {};

@@ -9,7 +9,7 @@ import numpy as np
 SETTINGS = {"profile": "thesis", "boxes": [9, 7, 5, 3], "noise": 0.02, "bins": 7, "seed": 1,
             "random": ["lens", "time"], "features": ["N", "P", "albedo"], "samples_factor": None, "max_samples": None,
             "position_scale": 20, "reject_second_hit": False, "bias_correction": False, "alpha_factor": 2, "redraws": 8,
-            "method": "rpf", "sigma_color": 30, "sigma_feature": 0.5}
+            "method": "rpf", "sigma_color": 30, "sigma_feature": 0.5, "damping": 0.45, "window": 21, "gamma": 0.2}
 
 
 def uniform(rng, n):
@@ -199,6 +199,34 @@ FIXED_CASES = {
     "cross_bilateral_far": lambda: fixed("cross-bilateral", 61, change=move_world, features=["P"], sigma_feature=0.3),
 }
 
+
+def pixels(method, seed, **keywords):
+    """A case of a method that filters pixels; features only where it knows them."""
+    keywords = {"features": ["N", "P", "albedo"] if method == "sbf" else [], "random": [], **keywords}
+    return (varying if keywords.pop("varying", False) else simple)(seed, method=method, **keywords)
+
+
+PIXEL_CASES = {
+    "nlm": lambda: pixels("nlm", 70),
+    "nlm_varying": lambda: pixels("nlm", 71, varying=True, damping=1.0),
+    "nlm_gaps": lambda: pixels("nlm", 72, spp=with_gaps(72), window=5),
+    "nlm_weighted": lambda: pixels("nlm", 73, change=add_weighted_fireflies, damping=3.0),
+    "nlm_1e-30": lambda: pixels("nlm", 74, change=scaled_radiance(1e-30)),
+    "nlm_one_row": lambda: pixels("nlm", 75, width=13, height=1, spp=3),
+    "gem": lambda: pixels("gem", 80),
+    "gem_varying": lambda: pixels("gem", 81, varying=True),
+    "gem_gaps": lambda: pixels("gem", 82, spp=with_gaps(82), gamma=0.05),
+    "gem_weighted": lambda: pixels("gem", 83, change=add_weighted_fireflies, gamma=0.4),
+    "gem_1e30": lambda: pixels("gem", 84, change=scaled_radiance(1e30)),
+    "gem_one_row": lambda: pixels("gem", 85, width=13, height=1, spp=3),
+    "sbf": lambda: pixels("sbf", 90),
+    "sbf_varying": lambda: pixels("sbf", 91, varying=True),
+    "sbf_gaps": lambda: pixels("sbf", 92, spp=with_gaps(92), features=["albedo"]),
+    "sbf_missing": lambda: pixels("sbf", 93, change=lose_values, features=["N", "P", "albedo", "uv"]),
+    "sbf_1e-30": lambda: pixels("sbf", 94, change=scaled_radiance(1e-30), features=[]),
+    "sbf_second_hit": lambda: pixels("sbf", 95, width=13, height=3, features=["N", "P2", "N2"]),
+}
+
 CASES = {
     "spp1_thesis": lambda: simple(11, spp=1, position_scale=1),
     "spp1_paper": lambda: simple(12, spp=1, position_scale=1, profile="paper", change=still_scene),
@@ -231,6 +259,7 @@ CASES = {
     "one_pixel": lambda: simple(33, 1, 1, spp=5, profile="paper", boxes=[5, 3]),
     "one_row": lambda: simple(34, 13, 1, profile="paper", random=["lens", "light"]),
     **FIXED_CASES,
+    **PIXEL_CASES,
 }
 
 

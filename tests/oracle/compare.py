@@ -24,6 +24,7 @@ import cases
 import draw_statistics
 import fixed_weights
 import oracle
+import pixel_methods
 import scene_frame
 from report import Report
 from tolerances import TOLERANCE
@@ -290,6 +291,13 @@ def trace_of(tool, case, folder):
     return json.loads(target.read_text())
 
 
+def witness_of(method):
+    """What compares a trace of a method with the oracle."""
+    if method in ("nlm", "gem", "sbf"):
+        return pixel_methods.compare
+    return compare if method == "rpf" else fixed_weights.compare
+
+
 def main():
     parser = argparse.ArgumentParser(description="Compares rpf_trace with the oracle.")
     parser.add_argument("--tool", help="path of rpf_trace")
@@ -306,7 +314,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         trace = trace_of(options.tool, case, folder)
     try:
-        report = (compare if case["settings"]["method"] == "rpf" else fixed_weights.compare)(case, trace)
+        report = witness_of(case["settings"]["method"])(case, trace)
     except KeyError as missing:
         print(f"the trace lacks {missing}")
         return 1

@@ -32,6 +32,9 @@ rpf::Settings read_settings(const json& s) {
   settings.method = rpf::method_settings(s.at("method")).method;
   settings.sigma_color = s.at("sigma_color");
   settings.sigma_feature = s.at("sigma_feature");
+  settings.damping = s.at("damping");
+  settings.window = s.at("window");
+  settings.gamma = s.at("gamma");
   settings.profile = s.at("profile") == "paper" ? rpf::Profile::paper : rpf::Profile::thesis;
   settings.box_widths = s.at("boxes").get<std::vector<int>>();
   settings.noise = s.at("noise");

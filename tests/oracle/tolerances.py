@@ -36,6 +36,11 @@ TOLERANCE = {
     "fixed_least": 1e-37,
     # relative to the brightest value of the frame: the weights' errors in a mean
     "fixed_color": 2e-6,
+    # methods that filter pixels, section 9, relative to the brightest value of the frame: a weighted mean of up to 3,024
+    # differences, whose weights have exponents that are sums of 147 quotients of float32; measured: 2.2e-7
+    "pixel_color": 1e-6,
+    # a weight as near to the least one that counts may count or not; the bound of its pixel allows both
+    "pixel_near": 1e-4,
     # standard deviations of chance; 6 happens once in 1e9
     "draw_statistics": 6.0,
 }

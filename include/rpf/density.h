@@ -1,0 +1,16 @@
+// How many samples each pixel should get in a renderer's next round (docs/explain.md).
+#pragma once
+
+#include "rpf/image.h"
+#include "rpf/samples.h"
+
+namespace rpf {
+
+/// One channel, "Y", over the data window: whole numbers, 1 or more, whose mean is `samples` exactly; `rpf scene --spp
+/// 1
+/// --density` renders as many. They bring the pixels' totals, those of `frame` among them, to what makes the relMSE of
+/// the plain mean least; pixels that no further sample should go to get one. Values that are not finite do not count.
+/// Throws Error(usage) for less than 1 sample, Error(input) where no pixel has two samples.
+Image sample_density(const SampleBuffer& frame, int samples);
+
+}  // namespace rpf

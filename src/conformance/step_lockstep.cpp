@@ -1,0 +1,26 @@
+#include "conformance/step_lockstep.h"
+
+#include "cpu/cpu_backend.h"
+#include "opencl/opencl_backend.h"
+
+namespace rpf {
+
+Comparison compare_steps(const ConformanceCase& c, SampleBuffer samples, const std::string& device_name, int threads) {
+  const PreparedFrame prepared = prepare(std::move(samples), c.settings);
+  const PixelPlan plan = make_pixel_plan(prepared.facts, c.settings);
+  const std::vector<float> inputs = pixel_planes(prepared, plan.inputs, plan.planes);
+  const auto silent = [](double /*part*/) {};
+  const std::vector<float> expected = CpuBackend(threads).run_steps(plan, inputs, silent),
+                           found = OpenClBackend({device_name, threads, 0}).run_steps(plan, inputs, silent);
+  Comparison comparison;
+  comparison.at(0, "whole frame");
+  comparison.values("planes", expected, found);
+  const auto picture = [&](const std::vector<float>& planes) {
+    const auto first = planes.begin() + static_cast<std::ptrdiff_t>(plan.result * plan.pixels());
+    return std::vector<float>(first, first + static_cast<std::ptrdiff_t>(prepared.facts.carried * plan.pixels()));
+  };
+  comparison.values("image", picture(expected), picture(found));
+  return comparison;
+}
+
+}  // namespace rpf

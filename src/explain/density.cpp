@@ -1,0 +1,148 @@
+#include "rpf/density.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "rpf/error.h"
+
+namespace rpf {
+namespace {
+
+using Values = std::vector<double>;  ///< [pixel]
+
+/// Pixels to each side over which noise and brightness are averaged: a few samples of one pixel know little, and counts
+/// that follow a pixel's own samples would bias its mean.
+constexpr int around = 3;
+
+/// Of relMSE (rpf compare), in the unit of the radiance squared.
+constexpr double least_brightness = 0.01;
+
+/// Sums over the pixels within `around`, as far as the picture goes.
+Values sums_around(const Values& values, int width, int height) {
+  Values rows(values.size()), sums(values.size());
+  const auto at = [&](int x, int y) { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + x; };
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int i = std::max(x - around, 0); i <= std::min(x + around, width - 1); ++i)
+        rows[at(x, y)] += values[at(i, y)];
+  for (int y = 0; y < height; ++y)
+    for (int i = std::max(y - around, 0); i <= std::min(y + around, height - 1); ++i)
+      for (int x = 0; x < width; ++x) sums[at(x, y)] += rows[at(x, i)];
+  return sums;
+}
+
+/// What is known of one color: sums over the pixels.
+struct Noise {
+  Values squares;  ///< of samples around their pixel's mean
+  Values free;     ///< how many of these are independent
+  Values mean;     ///< of a pixel, 0 without samples
+  Values pixels;   ///< 1 where it has samples
+};
+
+Noise noise_of(const SampleBuffer& frame, std::size_t column) {
+  const std::size_t count = frame.data_window.pixel_count();
+  Noise noise{Values(count), Values(count), Values(count), Values(count)};
+  for (std::size_t p = 0; p < count; ++p) {
+    double sum = 0, squares = 0, samples = 0;
+    for (std::uint32_t i = frame.first_sample[p]; i < frame.first_sample[p + 1]; ++i) {
+      const double value = frame.record(i)[column];
+      if (!std::isfinite(value)) continue;
+      ++samples;
+      const double off = value - sum;  // sum is the mean so far (Welford)
+      sum += off / samples;
+      squares += off * (value - sum);
+    }
+    noise.squares[p] = squares;
+    noise.free[p] = std::max(samples - 1, 0.0);
+    noise.mean[p] = sum;
+    noise.pixels[p] = samples > 0 ? 1 : 0;
+  }
+  return noise;
+}
+
+/// [pixel] what relMSE has of one sample there: variance over brightness, over the colors.
+Values relative_variances(const SampleBuffer& frame) {
+  const int width = frame.data_window.width, height = frame.data_window.height;
+  Values relative(frame.data_window.pixel_count());
+  for (const char* name : {"R", "G", "B"}) {
+    const Noise noise = noise_of(frame, *frame.layout.find(name));
+    const Values squares = sums_around(noise.squares, width, height), free = sums_around(noise.free, width, height);
+    const Values means = sums_around(noise.mean, width, height), pixels = sums_around(noise.pixels, width, height);
+    for (std::size_t p = 0; p < relative.size(); ++p) {
+      const double brightness = means[p] / std::max(pixels[p], 1.0);
+      relative[p] += squares[p] / std::max(free[p], 1.0) / (brightness * brightness + least_brightness);
+    }
+  }
+  return relative;
+}
+
+/// Further samples for a level: totals are in proportion to `wanted`, and no pixel gets less than one more.
+double further(const Values& wanted, const Values& counts, double level, Values* each) {
+  double sum = 0;
+  for (std::size_t p = 0; p < wanted.size(); ++p) {
+    const double more = std::max(level * wanted[p] - counts[p], 1.0);
+    sum += more;
+    if (each) (*each)[p] = more;
+  }
+  return sum;
+}
+
+/// Real numbers, 1 or more, with this sum.
+Values shared_out(const Values& wanted, const Values& counts, double sum) {
+  Values each(wanted.size(), sum / static_cast<double>(wanted.size()));
+  const double most = *std::max_element(wanted.begin(), wanted.end());
+  if (most <= 0) return each;
+  double low = 0, high = 1 / most;
+  while (further(wanted, counts, high, nullptr) < sum) high *= 2;
+  constexpr int halvings = 60;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (low + high) / 2;
+    (further(wanted, counts, middle, nullptr) < sum ? low : high) = middle;
+  }
+  further(wanted, counts, high, &each);
+  return each;
+}
+
+/// Whole numbers of the same sum: along a line that runs to and fro through the rows, each is what the rounded sum
+/// grows by. So a number is at most one off, what is lost in one pixel is given to the next, and 1 stays 1.
+std::vector<float> rounded(const Values& each, int width, double sum) {
+  std::vector<float> whole(each.size());
+  double exact = 0, given = 0;
+  for (std::size_t i = 0; i < each.size(); ++i) {
+    const std::size_t y = i / static_cast<std::size_t>(width), x = i % static_cast<std::size_t>(width);
+    const std::size_t pixel =
+        y * static_cast<std::size_t>(width) + (y % 2 == 0 ? x : static_cast<std::size_t>(width) - 1 - x);
+    exact += each[pixel];
+    const double next = i + 1 == each.size() ? sum : std::floor(exact + 0.5);
+    whole[pixel] = static_cast<float>(next - given);
+    given = next;
+  }
+  return whole;
+}
+
+}  // namespace
+
+Image sample_density(const SampleBuffer& frame, int samples) {
+  frame.validate();
+  if (samples < 1)
+    throw Error(ErrorKind::usage, fmt::format("density: {} samples a pixel; 1 or more are expected", samples));
+  Values wanted = relative_variances(frame), counts;
+  for (std::size_t p = 0; p < wanted.size(); ++p) counts.push_back(frame.first_sample[p + 1] - frame.first_sample[p]);
+  if (*std::max_element(counts.begin(), counts.end()) < 2)
+    throw Error(ErrorKind::input,
+                "density: no pixel has two samples, which are needed to tell noise; render with 2 "
+                "samples a pixel or more");
+  // sum of v / n is least for a given sum of n where n is in proportion to the root of v.
+  for (double& value : wanted) value = std::sqrt(value);
+  const double sum = static_cast<double>(samples) * static_cast<double>(wanted.size());
+  Image density;
+  density.data_window = frame.data_window;
+  density.display_window = frame.display_window;
+  density.channels = {"Y"};
+  density.pixels = rounded(shared_out(wanted, counts, sum), frame.data_window.width, sum);
+  return density;
+}
+
+}  // namespace rpf

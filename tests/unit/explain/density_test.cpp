@@ -1,0 +1,72 @@
+// How many samples each pixel should get next.
+#include "rpf/density.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "rpf/error.h"
+#include "test_frames.h"
+
+namespace rpf {
+namespace {
+
+using test::defocused_edge;
+
+/// A flat picture, noisy in its right half only.
+SampleBuffer half_noisy() {
+  SampleBuffer samples = defocused_edge({30, 12, 4, 3});
+  test::Dice dice(5);
+  for (std::size_t i = 0; i < samples.sample_count(); ++i) {
+    const bool noisy = i / 4 % 30 >= 15;
+    for (const char* slot : {"R", "G", "B"}) test::value_of(samples, i, slot) = noisy ? dice() : 0.5F;
+  }
+  return samples;
+}
+
+double sum_of(const Image& image) { return std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0); }
+
+TEST(Density, HasWholeNumbersFromOneAndAnExactMean) {
+  for (const int count : {0, 2, 4})
+    for (const int samples : {1, 4, 7}) {
+      const Image density = sample_density(defocused_edge({17, 9, count, 2}), samples);
+      ASSERT_EQ(density.channels, std::vector<std::string>{"Y"});
+      ASSERT_EQ(density.pixels.size(), 17U * 9U);
+      for (const float value : density.pixels) {
+        ASSERT_GE(value, 1);
+        ASSERT_EQ(value, std::floor(value));
+      }
+      EXPECT_EQ(sum_of(density), 17 * 9 * samples);
+    }
+}
+
+TEST(Density, GoesToTheNoise) {
+  const Image density = sample_density(half_noisy(), 4);
+  for (int y = 0; y < 12; ++y) {
+    EXPECT_EQ(density.pixels[static_cast<std::size_t>(y) * 30 + 5], 1);
+    EXPECT_GE(density.pixels[static_cast<std::size_t>(y) * 30 + 25], 6);
+  }
+}
+
+TEST(Density, GivesWhatIsAlikeTheSame) {
+  SampleBuffer samples = defocused_edge({11, 7, 4, 2});
+  for (const char* slot : {"R", "G", "B"}) test::fill(samples, slot, 0.25F);
+  for (const float value : sample_density(samples, 3).pixels) EXPECT_EQ(value, 3);
+}
+
+TEST(Density, DoesNotCountValuesThatAreNone) {
+  SampleBuffer samples = half_noisy();
+  test::value_of(samples, 20, "R") = std::numeric_limits<float>::quiet_NaN();
+  test::value_of(samples, 21, "G") = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(sum_of(sample_density(samples, 4)), 30 * 12 * 4);
+}
+
+TEST(Density, RefusesWhatItCannotTell) {
+  EXPECT_THROW(sample_density(defocused_edge({9, 7, 1, 2}), 4), Error);
+  EXPECT_THROW(sample_density(defocused_edge(), 0), Error);
+}
+
+}  // namespace
+}  // namespace rpf
