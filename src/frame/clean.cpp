@@ -11,9 +11,7 @@
 #include <limits>
 #include <utility>
 
-#include "frame/conventions.h"
 #include "frame/lost_pixels.h"
-#include "frame/tally.h"
 #include "frame/variables.h"
 
 namespace rpf {
@@ -31,15 +29,8 @@ std::vector<std::size_t> all_of(const SampleLayout& layout, std::initializer_lis
   return columns.size() == slots.size() ? columns : std::vector<std::size_t>{};
 }
 
-struct Findings {
-  Tally infinite, not_finite, no_weight, negative, alpha, empty, lost;
-  Tally missing;                      ///< samples
-  std::vector<char> missing_columns;  ///< [column] of these
-  float brightest = 0;
-};
-
 /// Overflowed light is the largest that its type holds, not none.
-void take_infinite(float* record, const Columns& columns, Findings& findings, std::size_t pixel) {
+void take_infinite(float* record, const Columns& columns, CleanFindings& findings, std::size_t pixel) {
   for (std::size_t c = 0; c < 3; ++c) {
     float& value = record[columns.color[c]];
     if (columns.largest[c] == 0 || !std::isinf(value) || value < 0) continue;
@@ -48,7 +39,7 @@ void take_infinite(float* record, const Columns& columns, Findings& findings, st
   }
 }
 
-bool is_usable(const float* record, const Columns& columns, Findings& findings, std::size_t pixel) {
+bool is_usable(const float* record, const Columns& columns, CleanFindings& findings, std::size_t pixel) {
   const auto is_finite = [&](std::size_t c) { return std::isfinite(record[c]); };
   if (!std::all_of(std::begin(columns.color), std::end(columns.color), is_finite)) {
     findings.not_finite.add(pixel);
@@ -82,7 +73,7 @@ bool is_miss(const float* record, const Columns& columns) {
 }
 
 /// Marks what is missing, and counts the sample where it should not be: at a hit, or of what every sample has.
-void mark_missing(float* record, const Columns& columns, Findings& findings, std::size_t pixel) {
+void mark_missing(float* record, const Columns& columns, CleanFindings& findings, std::size_t pixel) {
   const bool miss = is_miss(record, columns);
   const auto has_any = [&](const std::vector<std::size_t>& hit) {
     return std::any_of(hit.begin(), hit.end(), [&](std::size_t c) { return !is_missing(record[c]); });
@@ -104,7 +95,8 @@ void mark_missing(float* record, const Columns& columns, Findings& findings, std
   if (any) findings.missing.add(pixel);
 }
 
-void clean_record(float* record, const Columns& columns, bool clamp_negative, Findings& findings, std::size_t pixel) {
+void clean_record(float* record, const Columns& columns, bool clamp_negative, CleanFindings& findings,
+                  std::size_t pixel) {
   for (const std::size_t c : columns.color) {
     if (!(record[c] < 0)) continue;
     findings.negative.add(pixel);
@@ -127,7 +119,7 @@ std::string list_of(const std::vector<char>& columns, const SampleLayout& layout
   return fmt::format("{}{}", fmt::join(names, " "), rest);
 }
 
-std::vector<InputNote> notes_of(const Findings& findings, const SampleBuffer& samples, bool clamp_negative) {
+std::vector<InputNote> notes_of(const CleanFindings& findings, const SampleBuffer& samples, bool clamp_negative) {
   std::vector<InputNote> notes;
   const auto tell = [&](const Tally& tally, const std::string& what) { tally.tell(what, samples.data_window, notes); };
   tell(findings.infinite, "infinite radiance values, taken for the largest of their type");
@@ -142,7 +134,7 @@ std::vector<InputNote> notes_of(const Findings& findings, const SampleBuffer& sa
 }
 
 /// What a sample without a usable color or weight keeps: it waits for the color of its pixel's neighbors.
-void clean_lost_record(float* record, const Columns& columns, bool clamp_negative, Findings& findings,
+void clean_lost_record(float* record, const Columns& columns, bool clamp_negative, CleanFindings& findings,
                        std::size_t pixel) {
   for (const std::size_t c : columns.color) record[c] = 0;
   if (columns.weight) record[*columns.weight] = 1;
@@ -151,7 +143,7 @@ void clean_lost_record(float* record, const Columns& columns, bool clamp_negativ
 
 /// Moves the samples of a pixel that can be used to `kept`, all of them where none can. Returns how many.
 std::uint32_t keep_samples(SampleBuffer& samples, std::uint32_t begin, std::uint32_t end, std::uint32_t kept,
-                           const Columns& columns, bool clamp_negative, Findings& findings, std::size_t pixel) {
+                           const Columns& columns, bool clamp_negative, CleanFindings& findings, std::size_t pixel) {
   const std::size_t stride = samples.layout.size();
   std::uint32_t count = 0;
   for (std::uint32_t sample = begin; sample < end; ++sample) {
@@ -174,6 +166,24 @@ std::uint32_t keep_samples(SampleBuffer& samples, std::uint32_t begin, std::uint
   }
   findings.lost.add(pixel);
   return count;
+}
+
+/// Cleans all pixels; `before` and `after` are told the place of each, and `after` which samples it keeps and whether
+/// it had to lose them all.
+template <class Before, class After>
+void clean_rows(SampleBuffer& rows, std::size_t first, const Columns& columns, bool clamp_negative,
+                CleanFindings& findings, const Before& before, const After& after) {
+  std::uint32_t kept = 0;
+  for (std::size_t place = 0; place + 1 < rows.first_sample.size(); ++place) {
+    before(place);
+    const std::uint32_t begin = std::exchange(rows.first_sample[place], kept), end = rows.first_sample[place + 1];
+    const std::uint64_t lost_before = findings.lost.count;
+    kept += keep_samples(rows, begin, end, kept, columns, clamp_negative, findings, first + place);
+    if (begin == end) findings.empty.add(first + place);
+    after(place, rows.first_sample[place], kept, findings.lost.count > lost_before);
+  }
+  rows.first_sample.back() = kept;
+  rows.values.resize(kept * rows.layout.size());
 }
 
 }  // namespace
@@ -203,34 +213,76 @@ Columns find_columns(const SampleBuffer& samples, bool clamp_infinite) {
   return c;
 }
 
-CleanReport clean(SampleBuffer& samples, const Columns& columns, bool clamp_negative) {
-  Findings findings;
-  findings.missing_columns.resize(samples.layout.size());
-  Conventions conventions(samples);
-  std::vector<std::size_t> lost;
-  std::uint32_t kept = 0;
-  for (std::size_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel) {
-    conventions.add(samples, pixel);
-    const std::uint32_t begin = std::exchange(samples.first_sample[pixel], kept), end = samples.first_sample[pixel + 1];
-    const std::uint64_t lost_before = findings.lost.count;
-    kept += keep_samples(samples, begin, end, kept, columns, clamp_negative, findings, pixel);
-    if (begin == end) findings.empty.add(pixel);
-    if (findings.lost.count > lost_before) lost.push_back(pixel);
+std::size_t first_pixel(const SampleBuffer& rows, const Window& data_window) {
+  return static_cast<std::size_t>(rows.data_window.y - data_window.y) * static_cast<std::size_t>(data_window.width);
+}
+
+Cleaning::Cleaning(const SampleBuffer& frame, const Columns& columns, bool clamp_negative)
+    : frame_(frame),
+      columns_(columns),
+      clamp_negative_(clamp_negative),
+      conventions_(frame),
+      colors_(frame.data_window.pixel_count()) {
+  findings_.missing_columns.resize(frame.layout.size());
+}
+
+void Cleaning::add(SampleBuffer& rows) {
+  const std::size_t first = first_pixel(rows, frame_.data_window);
+  clean_rows(
+      rows, first, columns_, clamp_negative_, findings_,
+      [&](std::size_t place) { conventions_.add(rows, place, first + place); },
+      [&](std::size_t place, std::uint32_t begin, std::uint32_t end, bool lost) {
+        most_samples_ = std::max(most_samples_, end - begin);
+        if (lost)
+          lost_.push_back({first + place, end - begin, {}});
+        else
+          colors_[first + place] = color_of_samples(rows, columns_, begin, end);
+      });
+}
+
+bool Cleaning::lacks_positions() const {
+  return std::any_of(std::begin(columns_.film), std::end(columns_.film),
+                     [&](std::size_t c) { return findings_.missing_columns[c] != 0; });
+}
+
+CleanReport Cleaning::report() {
+  CleanReport report;
+  report.lost = std::move(lost_);
+  report.has_color = report.lost.empty() || find_lost_colors(frame_.data_window, colors_, report.lost);
+  if (!report.has_color) {  // of the whole frame
+    report.lost.clear();
+    findings_.empty = std::exchange(findings_.lost, {});
+    most_samples_ = 0;
   }
-  samples.first_sample.back() = kept;
-  if (!lost.empty() && !fill_lost_pixels(samples, columns, lost)) {  // of the whole frame
-    std::fill(samples.first_sample.begin(), samples.first_sample.end(), 0);
-    kept = 0;
-    findings.empty = findings.lost;
-    findings.lost = {};
-  }
-  samples.values.resize(kept * samples.layout.size());
-  const bool lacks_positions = std::any_of(std::begin(columns.film), std::end(columns.film),
-                                           [&](std::size_t c) { return findings.missing_columns[c] != 0; });
-  CleanReport report{conventions.notes(samples.data_window), lacks_positions, findings.brightest};
-  std::vector<InputNote> found = notes_of(findings, samples, clamp_negative);
+  report.most_samples = most_samples_;
+  report.brightest = findings_.brightest;
+  report.lacks_positions = lacks_positions();
+  report.notes = conventions_.notes(frame_.data_window);
+  std::vector<InputNote> found = notes_of(findings_, frame_, clamp_negative_);
   std::move(found.begin(), found.end(), std::back_inserter(report.notes));
   return report;
+}
+
+void clean_again(SampleBuffer& rows, const Columns& columns, bool clamp_negative) {
+  CleanFindings found_before;
+  found_before.missing_columns.resize(rows.layout.size());
+  clean_rows(
+      rows, 0, columns, clamp_negative, found_before, [](std::size_t /*place*/) {},
+      [](std::size_t /*place*/, std::uint32_t /*begin*/, std::uint32_t /*end*/, bool /*lost*/) {});
+}
+
+void fill_lost(SampleBuffer& rows, const Window& data_window, const Columns& columns, const CleanReport& report) {
+  if (!report.has_color) {
+    std::fill(rows.first_sample.begin(), rows.first_sample.end(), 0);
+    rows.values.clear();
+    return;
+  }
+  const std::size_t first = first_pixel(rows, data_window), end = first + rows.data_window.pixel_count();
+  const auto before = [](const LostPixel& lost, std::size_t pixel) { return lost.pixel < pixel; };
+  for (auto lost = std::lower_bound(report.lost.begin(), report.lost.end(), first, before);
+       lost != report.lost.end() && lost->pixel < end; ++lost)
+    for (std::uint32_t i = rows.first_sample[lost->pixel - first]; i < rows.first_sample[lost->pixel - first + 1]; ++i)
+      for (std::size_t c = 0; c < 3; ++c) rows.record(i)[columns.color[c]] = lost->color[c];
 }
 
 }  // namespace rpf

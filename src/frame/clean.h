@@ -1,10 +1,13 @@
 // What cannot be used is left out or marked as missing before anything is computed (algorithm.md, section 1).
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <vector>
 
+#include "frame/conventions.h"
+#include "frame/tally.h"
 #include "rpf/filter.h"
 #include "rpf/samples.h"
 
@@ -28,16 +31,72 @@ struct Columns {
 /// `clamp_infinite`: as in Settings.
 Columns find_columns(const SampleBuffer& samples, bool clamp_infinite);
 
-struct CleanReport {
-  std::vector<InputNote> notes;  ///< what was found, and where first
-  bool lacks_positions = false;  ///< whether a film position is missing
-  float brightest = 0;           ///< the largest magnitude of R, G, B
+/// The mean color of a pixel's samples, where it has one.
+struct PixelColor {
+  std::array<float, 3> mean{};
+  bool is_known = false;
 };
 
-/// Takes infinite radiance for the largest value of its type where Columns::largest says so, leaves out samples whose
-/// color is not finite or whose weight is none, and marks unusable features, random parameters and film positions as
-/// missing (NaN). A pixel that loses all its samples keeps them, in the color of its neighbors and with weight 1. The
-/// buffer shrinks in place. Contradictions of the conventions are noted on the way, of the samples as they were.
-CleanReport clean(SampleBuffer& samples, const Columns& columns, bool clamp_negative);
+/// A pixel that lost all its samples.
+struct LostPixel {
+  std::size_t pixel = 0;      ///< row-major in the data window
+  std::uint32_t samples = 0;  ///< that it keeps
+  std::array<float, 3> color{};
+};
+
+struct CleanReport {
+  std::vector<InputNote> notes;    ///< what was found, and where first
+  bool lacks_positions = false;    ///< whether a film position is missing
+  float brightest = 0;             ///< the largest magnitude of R, G, B
+  std::uint32_t most_samples = 0;  ///< of a pixel, that are left
+  std::vector<LostPixel> lost;     ///< ascending
+  bool has_color = true;           ///< false: no pixel of the frame has, and no sample is left
+};
+
+/// What was found so far.
+struct CleanFindings {
+  Tally infinite, not_finite, no_weight, negative, alpha, empty, lost;
+  Tally missing;                      ///< samples
+  std::vector<char> missing_columns;  ///< [column] of these
+  float brightest = 0;
+};
+
+/// Cleans a frame, all at once or rows after rows. Takes infinite radiance for the largest value of its type where
+/// Columns::largest says so, leaves out samples whose color is not finite or whose weight is none, and marks unusable
+/// features, random parameters and film positions as missing (NaN). A pixel that loses all its samples keeps them, with
+/// weight 1; fill_lost() gives them the color of its neighbors. Buffers shrink in place.
+class Cleaning {
+ public:
+  /// `frame`: may be without its samples. It and the columns outlive this.
+  Cleaning(const SampleBuffer& frame, const Columns& columns, bool clamp_negative);
+
+  /// Cleans the next rows, whose data window is their part of the frame's. Contradictions of the conventions are noted
+  /// on the way, of the samples as they were.
+  void add(SampleBuffer& rows);
+  /// Whether a film position was missing so far.
+  bool lacks_positions() const;
+  /// After all rows.
+  CleanReport report();
+
+ private:
+  const SampleBuffer& frame_;
+  const Columns& columns_;
+  bool clamp_negative_;
+  CleanFindings findings_;
+  Conventions conventions_;
+  std::uint32_t most_samples_ = 0;
+  std::vector<LostPixel> lost_;
+  std::vector<PixelColor> colors_;  ///< [pixel]
+};
+
+/// Cleans rows once more that were read again.
+void clean_again(SampleBuffer& rows, const Columns& columns, bool clamp_negative);
+
+/// Gives the lost pixels among the rows their color, once all rows of the frame were looked at; leaves none of the
+/// samples where no pixel has a color.
+void fill_lost(SampleBuffer& rows, const Window& data_window, const Columns& columns, const CleanReport& report);
+
+/// The number in the frame of the first pixel of some of its rows.
+std::size_t first_pixel(const SampleBuffer& rows, const Window& data_window);
 
 }  // namespace rpf

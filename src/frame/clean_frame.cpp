@@ -17,25 +17,6 @@ namespace {
 /// values 2^-166 times as bright are still normal numbers.
 constexpr int brightest_exponent = 40;
 
-/// The power of two that brings the brightest value to [2^40, 2^41); 1 for a black frame.
-float radiance_scale(float brightest) {
-  // The scale itself must be a normal float whose inverse is one too, also for subnormal radiance.
-  return brightest > 0 ? std::ldexp(1.0F, std::clamp(brightest_exponent - std::ilogb(brightest), -126, 126)) : 1.0F;
-}
-
-/// Distances on the film need a position: a sample that has none is in the middle of its pixel.
-void center_missing_positions(SampleBuffer& samples, const Columns& columns) {
-  const Window& w = samples.data_window;
-  for (std::size_t pixel = 0; pixel < w.pixel_count(); ++pixel)
-    for (std::uint32_t i = samples.first_sample[pixel]; i < samples.first_sample[pixel + 1]; ++i) {
-      const int place[2] = {w.x + static_cast<int>(pixel) % w.width, w.y + static_cast<int>(pixel) / w.width};
-      for (int axis = 0; axis < 2; ++axis) {
-        float& value = samples.record(i)[columns.film[axis]];
-        if (std::isnan(value)) value = static_cast<float>(place[axis]) + 0.5F;
-      }
-    }
-}
-
 /// What is averaged beside the color: alpha where the file has it, all features where they are wanted.
 std::vector<std::size_t> carried_columns(const SampleLayout& layout, const Columns& columns, const Settings& settings,
                                          std::vector<std::string>& names) {
@@ -78,13 +59,6 @@ void check_crop(const Window& crop, const Window& data_window) {
                                               text_of(crop), text_of(data_window)));
 }
 
-std::uint32_t most_samples(const std::vector<std::uint32_t>& first_sample) {
-  std::uint32_t most = 0;
-  for (std::size_t p = 0; p + 1 < first_sample.size(); ++p)
-    most = std::max(most, first_sample[p + 1] - first_sample[p]);
-  return most;
-}
-
 std::string short_name(const std::string& slot) {
   return is_random_slot(slot) || is_feature_slot(slot) ? slot.substr(slot.find('.') + 1) : slot;
 }
@@ -102,24 +76,70 @@ std::vector<float> carried_values(const CleanFrame& clean, bool with_color) {
   return values;
 }
 
-CleanFrame clean_frame(SampleBuffer samples, const Settings& settings) {
+float radiance_scale(float brightest) {
+  // The scale itself must be a normal float whose inverse is one too, also for subnormal radiance.
+  return brightest > 0 ? std::ldexp(1.0F, std::clamp(brightest_exponent - std::ilogb(brightest), -126, 126)) : 1.0F;
+}
+
+SampleBuffer without_samples(const SampleBuffer& samples) {
+  SampleBuffer frame;
+  frame.data_window = samples.data_window;
+  frame.display_window = samples.display_window;
+  frame.layout = samples.layout;
+  frame.metadata = samples.metadata;
+  frame.half_slots = samples.half_slots;
+  return frame;
+}
+
+CleanFrame begin_frame(const SampleBuffer& frame, const Settings& settings) {
   CleanFrame clean;
   PreparedFrame& prepared = clean.prepared;
-  clean.columns = find_columns(samples, settings.clamp_infinite);
-  clean.selection = select_channels(samples.layout, settings);
-  prepared.facts.crop = wanted_region(samples.data_window, settings.crop);
-  CleanReport report = rpf::clean(samples, clean.columns, settings.clamp_negative);
-  prepared.notes = std::move(report.notes);
-  if (report.lacks_positions && settings.method != Method::rpf) center_missing_positions(samples, clean.columns);
-  prepared.facts.radiance_scale = radiance_scale(report.brightest);
-  clean.carried = carried_columns(samples.layout, clean.columns, settings, prepared.carried_names);
+  clean.frame = without_samples(frame);
+  clean.columns = find_columns(frame, settings.clamp_infinite);
+  clean.selection = select_channels(frame.layout, settings);
+  clean.carried = carried_columns(frame.layout, clean.columns, settings, prepared.carried_names);
+  prepared.facts.crop = wanted_region(frame.data_window, settings.crop);
   prepared.facts.carried = prepared.carried_names.size();
-  prepared.frame.width = prepared.facts.width = samples.data_window.width;
-  prepared.frame.height = prepared.facts.height = samples.data_window.height;
-  prepared.frame.weights = sample_weights(samples, clean.columns);
-  prepared.facts.max_samples_per_pixel = most_samples(samples.first_sample);
-  clean.samples = std::move(samples);
+  prepared.frame.width = prepared.facts.width = frame.data_window.width;
+  prepared.frame.height = prepared.facts.height = frame.data_window.height;
   return clean;
+}
+
+void center_missing_positions(SampleBuffer& rows, const Columns& columns, Method method) {
+  if (method == Method::rpf) return;
+  const Window& w = rows.data_window;
+  for (std::size_t pixel = 0; pixel < w.pixel_count(); ++pixel)
+    for (std::uint32_t i = rows.first_sample[pixel]; i < rows.first_sample[pixel + 1]; ++i) {
+      const int place[2] = {w.x + static_cast<int>(pixel) % w.width, w.y + static_cast<int>(pixel) / w.width};
+      for (int axis = 0; axis < 2; ++axis) {
+        float& value = rows.record(i)[columns.film[axis]];
+        if (std::isnan(value)) value = static_cast<float>(place[axis]) + 0.5F;
+      }
+    }
+}
+
+void take_report(CleanFrame& clean, const CleanReport& report) {
+  clean.prepared.notes = report.notes;
+  clean.prepared.facts.radiance_scale = radiance_scale(report.brightest);
+  clean.prepared.facts.max_samples_per_pixel = report.most_samples;
+}
+
+void take_rows(CleanFrame& clean, SampleBuffer rows, const CleanReport& report, Method method) {
+  fill_lost(rows, clean.frame.data_window, clean.columns, report);
+  if (report.lacks_positions) center_missing_positions(rows, clean.columns, method);
+  clean.prepared.frame.weights = sample_weights(rows, clean.columns);
+  clean.samples = std::move(rows);
+}
+
+std::vector<std::uint32_t> first_sample_in_frame(CleanFrame& clean) {
+  std::vector<std::uint32_t> first = std::move(clean.samples.first_sample);
+  const std::size_t pixels = clean.frame.data_window.pixel_count();
+  if (first.size() == pixels + 1) return first;
+  std::vector<std::uint32_t> all(pixels + 1, first.back());
+  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first_pixel(clean.samples, clean.frame.data_window));
+  std::fill(all.begin(), begin, 0U);
+  std::copy(first.begin(), first.end(), begin);
+  return all;
 }
 
 }  // namespace rpf

@@ -42,7 +42,7 @@ class RandomCheck : public SampleCheck<RandomCheck> {
   }
 
  private:
-  const SampleLayout& layout_;
+  SampleLayout layout_;
   std::vector<std::size_t> columns_;
   std::vector<char> wrong_;  ///< [column]
   Tally outside_;
@@ -52,10 +52,10 @@ class RandomCheck : public SampleCheck<RandomCheck> {
 /// Pixels whose samples are copies of one: a sampler that starts anew for every sample.
 class CopyCheck : public ConventionCheck {
  public:
-  void add(const SampleBuffer& samples, std::size_t pixel) override {
-    const std::uint32_t begin = samples.first_sample[pixel], end = samples.first_sample[pixel + 1];
+  void add(const SampleBuffer& rows, std::size_t place, std::size_t pixel) override {
+    const std::uint32_t begin = rows.first_sample[place], end = rows.first_sample[place + 1];
     for (std::uint32_t i = begin + 1; i < end; ++i)
-      if (std::memcmp(samples.record(begin), samples.record(i), samples.layout.size() * sizeof(float)) != 0) return;
+      if (std::memcmp(rows.record(begin), rows.record(i), rows.layout.size() * sizeof(float)) != 0) return;
     if (end - begin > 1) copies_.add(pixel);
   }
 
@@ -88,10 +88,10 @@ std::vector<std::size_t> columns_of(const SampleLayout& layout, const std::strin
   return columns;
 }
 
-Conventions::Conventions(const SampleBuffer& samples) {
-  add_film_check(samples, checks_);
-  checks_.push_back(std::make_unique<RandomCheck>(samples.layout));
-  add_surface_checks(samples, checks_);
+Conventions::Conventions(const SampleBuffer& frame) {
+  add_film_check(frame, checks_);
+  checks_.push_back(std::make_unique<RandomCheck>(frame.layout));
+  add_surface_checks(frame, checks_);
   checks_.push_back(std::make_unique<CopyCheck>());
 }
 
@@ -103,7 +103,7 @@ std::vector<InputNote> Conventions::notes(const Window& data_window) const {
 
 std::vector<InputNote> check_conventions(const SampleBuffer& samples) {
   Conventions conventions(samples);
-  for (std::size_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel) conventions.add(samples, pixel);
+  for (std::size_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel) conventions.add(samples, pixel, pixel);
   return conventions.notes(samples.data_window);
 }
 

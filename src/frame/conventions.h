@@ -18,8 +18,9 @@ class ConventionCheck {
   ConventionCheck(const ConventionCheck&) = delete;
   ConventionCheck& operator=(const ConventionCheck&) = delete;
 
-  /// The samples of a pixel (row-major in the data window); pixels come in ascending order.
-  virtual void add(const SampleBuffer& samples, std::size_t pixel) = 0;
+  /// The samples of a pixel, which has the number `place` in these rows and `pixel` in the frame (row-major in its data
+  /// window); pixels come in ascending order.
+  virtual void add(const SampleBuffer& rows, std::size_t place, std::size_t pixel) = 0;
   virtual void tell(const Window& data_window, std::vector<InputNote>& notes) const = 0;
 };
 
@@ -27,9 +28,9 @@ class ConventionCheck {
 template <typename Check>
 class SampleCheck : public ConventionCheck {
  public:
-  void add(const SampleBuffer& samples, std::size_t pixel) final {
-    for (std::uint32_t i = samples.first_sample[pixel]; i < samples.first_sample[pixel + 1]; ++i)
-      static_cast<Check*>(this)->add_sample(samples.record(i), pixel);
+  void add(const SampleBuffer& rows, std::size_t place, std::size_t pixel) final {
+    for (std::uint32_t i = rows.first_sample[place]; i < rows.first_sample[place + 1]; ++i)
+      static_cast<Check*>(this)->add_sample(rows.record(i), pixel);
   }
 };
 
@@ -38,11 +39,12 @@ using ConventionChecks = std::vector<std::unique_ptr<ConventionCheck>>;
 /// All checks of a frame.
 class Conventions {
  public:
-  explicit Conventions(const SampleBuffer& samples);
+  /// `frame`: may be without its samples.
+  explicit Conventions(const SampleBuffer& frame);
 
-  /// To be called for every pixel, in ascending order, before its samples are changed.
-  void add(const SampleBuffer& samples, std::size_t pixel) {
-    for (const auto& check : checks_) check->add(samples, pixel);
+  /// To be called for every pixel, in ascending order, before its samples are changed; ConventionCheck::add().
+  void add(const SampleBuffer& rows, std::size_t place, std::size_t pixel) {
+    for (const auto& check : checks_) check->add(rows, place, pixel);
   }
   /// What contradicts docs/file-format.md.
   std::vector<InputNote> notes(const Window& data_window) const;

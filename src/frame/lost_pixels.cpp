@@ -12,17 +12,11 @@ enum class State : char { unknown, waiting, known };
 /// A color for every pixel, from those that have one to those that have none.
 class Spreading {
  public:
-  Spreading(const SampleBuffer& samples, const Columns& columns, const std::vector<std::size_t>& lost)
-      : width_(samples.data_window.width),
-        height_(samples.data_window.height),
-        colors_(samples.data_window.pixel_count()),
-        states_(colors_.size(), State::unknown) {
-    for (std::size_t pixel = 0; pixel < colors_.size(); ++pixel) {
-      const bool has_color = samples.first_sample[pixel] < samples.first_sample[pixel + 1] &&
-                             !std::binary_search(lost.begin(), lost.end(), pixel);
-      if (!has_color) continue;
-      colors_[pixel] = mean_of(samples, columns, pixel);
-      states_[pixel] = State::known;
+  Spreading(const Window& data_window, const std::vector<PixelColor>& colors)
+      : width_(data_window.width), height_(data_window.height), colors_(colors.size()), states_(colors.size()) {
+    for (std::size_t pixel = 0; pixel < colors.size(); ++pixel) {
+      colors_[pixel] = colors[pixel].mean;
+      states_[pixel] = colors[pixel].is_known ? State::known : State::unknown;
     }
   }
 
@@ -39,17 +33,6 @@ class Spreading {
   const Color& color(std::size_t pixel) const { return colors_[pixel]; }
 
  private:
-  static Color mean_of(const SampleBuffer& samples, const Columns& columns, std::size_t pixel) {
-    Color mean{};
-    const std::uint32_t begin = samples.first_sample[pixel], end = samples.first_sample[pixel + 1];
-    for (std::size_t c = 0; c < 3; ++c) {
-      double sum = 0;
-      for (std::uint32_t i = begin; i < end; ++i) sum += static_cast<double>(samples.record(i)[columns.color[c]]);
-      mean[c] = static_cast<float>(sum / (end - begin));
-    }
-    return mean;
-  }
-
   template <class Use>
   void for_each_neighbor(std::size_t pixel, Use use) const {
     const int x = static_cast<int>(pixel % static_cast<std::size_t>(width_)),
@@ -91,12 +74,21 @@ class Spreading {
 
 }  // namespace
 
-bool fill_lost_pixels(SampleBuffer& samples, const Columns& columns, const std::vector<std::size_t>& lost) {
-  Spreading spreading(samples, columns, lost);
+PixelColor color_of_samples(const SampleBuffer& rows, const Columns& columns, std::uint32_t begin, std::uint32_t end) {
+  PixelColor color;
+  color.is_known = begin < end;
+  for (std::size_t c = 0; color.is_known && c < 3; ++c) {
+    double sum = 0;
+    for (std::uint32_t i = begin; i < end; ++i) sum += static_cast<double>(rows.record(i)[columns.color[c]]);
+    color.mean[c] = static_cast<float>(sum / (end - begin));
+  }
+  return color;
+}
+
+bool find_lost_colors(const Window& data_window, const std::vector<PixelColor>& colors, std::vector<LostPixel>& lost) {
+  Spreading spreading(data_window, colors);
   if (!spreading.run()) return false;
-  for (const std::size_t pixel : lost)
-    for (std::uint32_t i = samples.first_sample[pixel]; i < samples.first_sample[pixel + 1]; ++i)
-      for (std::size_t c = 0; c < 3; ++c) samples.record(i)[columns.color[c]] = spreading.color(pixel)[c];
+  for (LostPixel& pixel : lost) pixel.color = spreading.color(pixel.pixel);
   return true;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "frame/clean.h"
@@ -9,9 +10,12 @@
 
 namespace rpf {
 
-/// Gives all samples of the lost pixels (ascending) one color: the mean of the eight neighbors' where one of them has
-/// a color, else what these got the same way, from the border of a hole to its middle. Returns false and changes
-/// nothing where no pixel of the frame has a color.
-bool fill_lost_pixels(SampleBuffer& samples, const Columns& columns, const std::vector<std::size_t>& lost);
+/// Of the samples begin .. end - 1.
+PixelColor color_of_samples(const SampleBuffer& rows, const Columns& columns, std::uint32_t begin, std::uint32_t end);
+
+/// Gives the lost pixels (ascending) a color: the mean of the eight neighbors' where one of them has a color, else what
+/// these got the same way, from the border of a hole to its middle. Returns false and changes nothing where no pixel of
+/// the frame has a color. `colors`: [pixel]; those of lost pixels are not known.
+bool find_lost_colors(const Window& data_window, const std::vector<PixelColor>& colors, std::vector<LostPixel>& lost);
 
 }  // namespace rpf

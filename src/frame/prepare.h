@@ -12,6 +12,8 @@
 
 namespace rpf {
 
+struct FrameFindings;
+
 /// A frame with what preparing it found out.
 struct PreparedFrame {
   Frame frame;
@@ -28,5 +30,10 @@ struct PreparedFrame {
 /// records in place (algorithm.md, section 1; docs/architecture.md, "One run"). For all methods but the learned one,
 /// which observe() prepares.
 PreparedFrame prepare(SampleBuffer samples, const Settings& settings);
+
+/// The same of some rows of a frame that were cleaned, with what FrameScan found in the whole: the others are left
+/// without samples. `frame`: without samples.
+PreparedFrame prepare_rows(SampleBuffer rows, const SampleBuffer& frame, const FrameFindings& found,
+                           const Settings& settings);
 
 }  // namespace rpf

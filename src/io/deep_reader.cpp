@@ -172,6 +172,54 @@ void check_sample_budget(const CheckedFile& file, std::size_t columns, std::uint
   check_budget(file.info.path, values + (pixels + 1) * sizeof(std::uint32_t) + reader_bytes(file), limit);
 }
 
+CheckedFile check_wanted(const std::string& path, const SampleReadOptions& options) {
+  CheckedFile checked = check_file(path, options);
+  leave_out_unwanted(checked.info, options);
+  return checked;
+}
+
+class DeepRows : public SampleRows {
+ public:
+  DeepRows(const std::string& path, const SampleReadOptions& options)
+      : checked_(check_wanted(path, options)),
+        frame_(empty_buffer(checked_.info)),
+        targets_(targets_of(checked_, frame_.layout)),
+        reader_(checked_) {}
+
+  const CheckedFile& checked() const { return checked_; }
+  const SampleBuffer& frame() const override { return frame_; }
+  std::uint64_t row_samples(int row) const override {
+    return checked_.rows.rows[static_cast<std::size_t>(row)].unpacked / checked_.sample_bytes;
+  }
+  SampleBuffer read(int first, int end) override {
+    return guard_input(checked_.info.path, [&] {
+      SampleBuffer samples = empty_rows(frame_, first, end);
+      for (int row = first; row < end; ++row)
+        for (const std::uint32_t count : reader_.counts(row))
+          samples.first_sample.push_back(samples.first_sample.back() + count);
+      allocate_values(samples);
+      fill(samples, first, end);
+      return samples;
+    });
+  }
+
+ private:
+  void fill(SampleBuffer& samples, int first, int end) {
+    std::size_t sample = 0;
+    for (int row = first; row < end; ++row) {
+      const std::vector<std::uint8_t>& unpacked = reader_.samples(row);
+      const std::size_t count = unpacked.size() / checked_.sample_bytes;
+      spread(unpacked, targets_, count, samples.record(sample), samples.layout.size());
+      sample += count;
+    }
+  }
+
+  CheckedFile checked_;
+  SampleBuffer frame_;
+  std::vector<Target> targets_;
+  RowReader reader_;
+};
+
 }  // namespace
 
 SampleFileInfo inspect_deep(const std::string& path, const SampleReadOptions& options) {
@@ -193,29 +241,14 @@ SampleFileInfo inspect_deep(const std::string& path, const SampleReadOptions& op
 }
 
 SampleBuffer read_deep(const std::string& path, const SampleReadOptions& options) {
-  CheckedFile checked = check_file(path, options);
-  leave_out_unwanted(checked.info, options);
-  SampleBuffer samples = empty_buffer(checked.info);
-  check_sample_budget(checked, samples.layout.size(), options.max_memory);
-  guard_input(path, [&] {
-    RowReader reader(checked);
-    samples.first_sample.reserve(samples.data_window.pixel_count() + 1);
-    samples.first_sample.push_back(0);
-    for (int row = 0; row < samples.data_window.height; ++row)
-      for (const std::uint32_t count : reader.counts(row))
-        samples.first_sample.push_back(samples.first_sample.back() + count);
-    // All allocations are counted in check_sample_budget().
-    allocate_values(samples);
-    const std::vector<Target> targets = targets_of(checked, samples.layout);
-    std::size_t first = 0;
-    for (int row = 0; row < samples.data_window.height; ++row) {
-      const std::vector<std::uint8_t>& unpacked = reader.samples(row);
-      const std::size_t count = unpacked.size() / checked.sample_bytes;
-      spread(unpacked, targets, count, samples.record(first), samples.layout.size());
-      first += count;
-    }
-  });
-  return samples;
+  DeepRows rows(path, options);
+  // All allocations that follow are counted here.
+  check_sample_budget(rows.checked(), rows.frame().layout.size(), options.max_memory);
+  return rows.read(0, rows.frame().data_window.height);
+}
+
+std::unique_ptr<SampleRows> open_deep_rows(const std::string& path, const SampleReadOptions& options) {
+  return std::make_unique<DeepRows>(path, options);
 }
 
 }  // namespace rpf::io

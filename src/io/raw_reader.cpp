@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 #include "io/channel_names.h"
 #include "io/guard.h"
@@ -87,17 +88,66 @@ void for_each_count(FileBytes& file, const CheckedFile& checked, Use use) {
   if (sum != expected) fail();
 }
 
-void read_plane(FileBytes& file, std::uint64_t begin, std::size_t column, SampleBuffer& samples) {
-  for_each_word(file, begin, samples.sample_count(), "the values", [&](std::uint32_t bits, std::uint64_t sample) {
-    std::memcpy(samples.record(sample) + column, &bits, word);  // bits, so that a NaN keeps its payload
-  });
-}
-
 void check_sample_budget(const CheckedFile& checked, std::size_t columns, std::uint64_t limit) {
   check_sample_count(checked.info);
   const std::uint64_t pixels = checked.info.data_window.pixel_count();
   check_budget(checked.info.path, (checked.info.sample_count * columns + pixels + 1) * word, limit);
 }
+
+class RawRows : public SampleRows {
+ public:
+  RawRows(const std::string& path, const SampleReadOptions& options)
+      : file_(path), checked_(check_file(file_, options)) {
+    leave_out_unwanted(checked_.info, options);
+    frame_ = empty_buffer(checked_.info);
+    const auto width = static_cast<std::uint64_t>(frame_.data_window.width);
+    first_of_row_.assign(static_cast<std::size_t>(frame_.data_window.height) + 1, 0);
+    for_each_count(file_, checked_,
+                   [&](std::uint32_t count, std::uint64_t pixel) { first_of_row_[pixel / width + 1] += count; });
+    std::partial_sum(first_of_row_.begin(), first_of_row_.end(), first_of_row_.begin());
+  }
+
+  const CheckedFile& checked() const { return checked_; }
+  const SampleBuffer& frame() const override { return frame_; }
+  std::uint64_t row_samples(int row) const override {
+    return first_of_row_[static_cast<std::size_t>(row) + 1] - first_of_row_[static_cast<std::size_t>(row)];
+  }
+  SampleBuffer read(int first, int end) override {
+    return guard_input(checked_.info.path, [&] {
+      SampleBuffer samples = empty_rows(frame_, first, end);
+      const std::uint64_t before =
+          static_cast<std::uint64_t>(first) * static_cast<std::uint64_t>(frame_.data_window.width);
+      for_each_word(file_, checked_.planes + before * word, samples.data_window.pixel_count(), "the counts",
+                    [&](std::uint32_t count, std::uint64_t) {
+                      samples.first_sample.push_back(samples.first_sample.back() + count);
+                    });
+      allocate_values(samples);
+      fill(samples, first_of_row_[static_cast<std::size_t>(first)]);
+      return samples;
+    });
+  }
+
+ private:
+  /// `before`: samples of the frame.
+  void fill(SampleBuffer& samples, std::uint64_t before) {
+    std::uint64_t plane = checked_.planes + frame_.data_window.pixel_count() * word;
+    for (const SampleFileChannel& channel : checked_.info.channels) {
+      if (!channel.slot.empty()) {
+        const std::size_t column = *samples.layout.find(channel.slot);
+        for_each_word(file_, plane + before * word, samples.sample_count(), "the values",
+                      [&](std::uint32_t bits, std::uint64_t sample) {  // bits, so that a NaN keeps its payload
+                        std::memcpy(samples.record(sample) + column, &bits, word);
+                      });
+      }
+      plane += checked_.info.sample_count * word;
+    }
+  }
+
+  FileBytes file_;
+  CheckedFile checked_;
+  SampleBuffer frame_;
+  std::vector<std::uint64_t> first_of_row_;  ///< [row + 1]: samples before it
+};
 
 }  // namespace
 
@@ -118,23 +168,14 @@ SampleFileInfo inspect_raw(const std::string& path, const SampleReadOptions& opt
 
 SampleBuffer read_raw(const std::string& path, const SampleReadOptions& options) {
   return guard_input(path, [&] {
-    FileBytes file(path);
-    CheckedFile checked = check_file(file, options);
-    leave_out_unwanted(checked.info, options);
-    SampleBuffer samples = empty_buffer(checked.info);
-    check_sample_budget(checked, samples.layout.size(), options.max_memory);
-    samples.first_sample.assign(samples.data_window.pixel_count() + 1, 0);
-    for_each_count(file, checked, [&](std::uint32_t count, std::uint64_t pixel) {
-      samples.first_sample[pixel + 1] = samples.first_sample[pixel] + count;
-    });
-    allocate_values(samples);
-    std::uint64_t begin = checked.planes + samples.data_window.pixel_count() * word;
-    for (const SampleFileChannel& channel : checked.info.channels) {
-      if (!channel.slot.empty()) read_plane(file, begin, *samples.layout.find(channel.slot), samples);
-      begin += samples.sample_count() * word;
-    }
-    return samples;
+    RawRows rows(path, options);
+    check_sample_budget(rows.checked(), rows.frame().layout.size(), options.max_memory);
+    return rows.read(0, rows.frame().data_window.height);
   });
+}
+
+std::unique_ptr<SampleRows> open_raw_rows(const std::string& path, const SampleReadOptions& options) {
+  return guard_input(path, [&] { return std::make_unique<RawRows>(path, options); });
 }
 
 }  // namespace rpf::io

@@ -60,4 +60,13 @@ SampleBuffer empty_buffer(const SampleFileInfo& info) {
   return samples;
 }
 
+SampleBuffer empty_rows(const SampleBuffer& frame, int first, int end) {
+  SampleBuffer samples = frame;
+  samples.data_window.y += first;
+  samples.data_window.height = end - first;
+  samples.first_sample.reserve(samples.data_window.pixel_count() + 1);
+  samples.first_sample.push_back(0);
+  return samples;
+}
+
 }  // namespace rpf::io

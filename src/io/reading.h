@@ -27,4 +27,7 @@ void allocate_values(SampleBuffer& samples);
 /// A buffer with the file's windows, metadata and slots, without samples.
 SampleBuffer empty_buffer(const SampleFileInfo& info);
 
+/// The same of the rows first .. end - 1 of a frame's data window, as a frame of their own; first_sample begins.
+SampleBuffer empty_rows(const SampleBuffer& frame, int first, int end);
+
 }  // namespace rpf::io

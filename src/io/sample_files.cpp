@@ -20,6 +20,10 @@ SampleBuffer read_samples(const std::string& path, const SampleReadOptions& opti
   return io::is_raw(path) ? io::read_raw(path, options) : io::read_deep(path, options);
 }
 
+std::unique_ptr<SampleRows> open_sample_rows(const std::string& path, const SampleReadOptions& options) {
+  return io::is_raw(path) ? io::open_raw_rows(path, options) : io::open_deep_rows(path, options);
+}
+
 void write_samples(const std::string& path, const SampleBuffer& samples, const std::vector<std::string>& half_slots) {
   if (io::sample_format_of(path) == io::SampleFormat::raw)
     io::write_raw(path, samples);

@@ -5,6 +5,7 @@
 
 #include "frame/prepare.h"
 #include "learned/estimate_plan.h"
+#include "learned/observe_scan.h"
 
 namespace rpf {
 
@@ -17,10 +18,13 @@ struct Observed {
 /// it.
 Observed observe(SampleBuffer samples, const Settings& settings, std::shared_ptr<const Network> network);
 
-/// Of the positions of the first sample of every pixel that has one.
-struct PositionFacts {
-  double median[3] = {};  ///< lower median of each component
-  double deviation = 1;   ///< mean absolute deviation from it, over the components too; 1 where all are one
-};
+/// What is known of a frame without its samples.
+Observed observe_frame(const SampleBuffer& frame, const ObservedFindings& found, const Settings& settings,
+                       std::shared_ptr<const Network> network);
+
+/// Fills in what is known of some rows, or all, that were cleaned: records, weights, what is carried beside the color,
+/// and first_sample, where the other rows are without samples.
+void observe_rows(SampleBuffer rows, const SampleBuffer& frame, const ObservedFindings& found, const Settings& settings,
+                  Observed& observed);
 
 }  // namespace rpf

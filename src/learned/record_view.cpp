@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "learned/observe.h"
+#include "learned/observe_scan.h"
 
 namespace rpf {
 namespace {
@@ -66,7 +66,7 @@ std::optional<Three> group_at(const CleanFrame& clean, const std::string& group,
   for (std::size_t k = 0; k < 3; ++k) {
     const std::string slot = "feature." + group + "." + axes[k];
     if (std::find(selected.begin(), selected.end(), slot) == selected.end()) return std::nullopt;
-    columns[k] = *clean.samples.layout.find(slot);
+    columns[k] = *clean.frame.layout.find(slot);
   }
   return columns;
 }
@@ -80,7 +80,7 @@ int input_of(const std::string& variable) {
 }
 
 RecordView::RecordView(const CleanFrame& clean)
-    : stride_(clean.samples.layout.size()),
+    : stride_(clean.frame.layout.size()),
       normal_(group_at(clean, "N", "XYZ")),
       albedo_(group_at(clean, "albedo", "RGB")),
       position_(group_at(clean, "P", "XYZ")),
@@ -89,8 +89,8 @@ RecordView::RecordView(const CleanFrame& clean)
       hit_(clean.columns.hit) {
   for (const std::string& slot : clean.selection.random)
     if (const int input = input_of(short_name(slot)); input >= 0)
-      numbers_.push_back({input, *clean.samples.layout.find(slot), 0, false});
-  const Window& window = clean.samples.data_window;
+      numbers_.push_back({input, *clean.frame.layout.find(slot), 0, false});
+  const Window& window = clean.frame.data_window;
   numbers_.push_back({RPF_INPUT_FILM, clean.columns.film[0], static_cast<float>(window.x), true});
   numbers_.push_back({RPF_INPUT_FILM + 1, clean.columns.film[1], static_cast<float>(window.y), true});
   std::vector<int> all(RPF_INPUTS - RPF_INPUT_NORMAL);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "frame/clean_frame.h"
 #include "frame/selection.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
@@ -66,6 +65,14 @@ std::uint64_t memory_need(const FrameSize& size, const SampleLayout& layout, std
   const std::uint64_t floats = sample_floats(layout.size(), room, facts.variables.count(), facts.carried);
   return size.samples * word * floats + size.pixels * pixel_bytes(facts.carried) +
          make_backend(settings)->scratch_bytes(plan, size.samples);
+}
+
+/// The largest number of samples in one pixel.
+std::uint32_t most_samples(const std::vector<std::uint32_t>& first_sample) {
+  std::uint32_t most = 0;
+  for (std::size_t p = 0; p + 1 < first_sample.size(); ++p)
+    most = std::max(most, first_sample[p + 1] - first_sample[p]);
+  return most;
 }
 
 }  // namespace

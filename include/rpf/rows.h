@@ -1,0 +1,46 @@
+// Frames that are read by rows as they are needed: larger than memory, or one part of many.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "rpf/filter.h"
+#include "rpf/io.h"
+#include "rpf/samples.h"
+#include "rpf/settings.h"
+
+namespace rpf {
+
+/// The samples of a frame, row by row, in any order and as often as they are asked for.
+class SampleRows {
+ public:
+  SampleRows() = default;
+  virtual ~SampleRows() = default;
+  SampleRows(const SampleRows&) = delete;
+  SampleRows& operator=(const SampleRows&) = delete;
+
+  /// The frame without its samples: windows, slots, metadata.
+  virtual const SampleBuffer& frame() const = 0;
+  /// Samples of a row of the data window, the topmost being 0.
+  virtual std::uint64_t row_samples(int row) const = 0;
+  /// The rows first .. end - 1 as a frame of their own, whose data window they are. Throws Error(input).
+  virtual SampleBuffer read(int first, int end) = 0;
+};
+
+/// Opens a sample file to be read by rows; checks what inspect_samples() checks. `options`: as for read_samples(), but
+/// nobody looks at the memory: that is for who asks for rows. Throws Error(input).
+std::unique_ptr<SampleRows> open_sample_rows(const std::string& path, const SampleReadOptions& options = {});
+
+/// What filter() finds out of all samples of a frame together, in one pass over its rows, as JSON: notes, what is
+/// constant, how bright it is, where it lies. Depends on the settings but for crop, backend, threads and memory. Throws
+/// as filter() does.
+std::string find_facts(SampleRows& rows, const Settings& settings, const Control& control = {});
+
+/// filter(), of rows that are read when they are needed: the same bits. `facts`: of find_facts() with these settings,
+/// so that only those rows are read that the crop needs; empty: they are found first. Takes as much memory as
+/// predict_rows_memory() says. Throws as filter() does.
+Result filter_rows(SampleRows& rows, const Settings& settings, const std::string& facts = {},
+                   const Control& control = {});
+
+}  // namespace rpf

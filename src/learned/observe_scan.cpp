@@ -1,0 +1,148 @@
+#include "learned/observe_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace rpf {
+namespace {
+
+/// The value in the middle; of two the lower one.
+template <typename Number>
+Number lower_median(std::vector<Number> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+float power_of_two(int exponent) { return std::ldexp(1.0F, std::clamp(exponent, -126, 126)); }
+
+double luminance(double red, double green, double blue) { return (red + green + blue) / 3; }
+
+bool is_relative(int input) {
+  return (input >= RPF_INPUT_POSITION && input < RPF_INPUT_MISS) || input == RPF_INPUT_DISTANCE2;
+}
+
+PositionFacts facts_of(std::vector<float> (&positions)[3]) {
+  PositionFacts facts;
+  if (positions[0].empty()) return facts;
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    facts.median[k] = lower_median(positions[k]);
+    for (const float position : positions[k]) sum += std::fabs(position - facts.median[k]);
+  }
+  if (sum > 0) facts.deviation = sum / (3 * static_cast<double>(positions[0].size()));
+  return facts;
+}
+
+}  // namespace
+
+ObserveScan::ObserveScan(const SampleBuffer& frame, const Settings& settings)
+    : method_(settings.method),
+      clean_(begin_frame(frame, settings)),
+      cleaning_(clean_.frame, clean_.columns, settings.clamp_negative),
+      view_(clean_),
+      luminances_(frame.data_window.pixel_count()) {
+  for (int input = RPF_INPUT_NORMAL; input < RPF_INPUTS; ++input)
+    if (view_.has(input)) (is_relative(input) ? relative_ : plain_).push_back(input);
+}
+
+void ObserveScan::add(SampleBuffer& rows) {
+  cleaning_.add(rows);
+  if (cleaning_.lacks_positions()) center_missing_positions(rows, clean_.columns, method_);
+  include_luminances(rows);
+  include_positions(rows);
+  const auto& weight = clean_.columns.weight;
+  for (std::size_t i = 0; weight && i < rows.sample_count(); ++i)
+    largest_weight_ = std::max(largest_weight_, rows.record(i)[*weight]);
+  found_.has_hit = found_.has_hit || view_.any_hit(rows);
+  leave_constant(rows, plain_, first_plain_);
+}
+
+void ObserveScan::include_luminances(const SampleBuffer& rows) {
+  const std::size_t first = first_pixel(rows, clean_.frame.data_window);
+  const auto& color = clean_.columns.color;
+  for (std::size_t place = 0; place + 1 < rows.first_sample.size(); ++place) {
+    const std::uint32_t begin = rows.first_sample[place], end = rows.first_sample[place + 1];
+    double sum = 0;
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const float* record = rows.record(i);
+      sum += luminance(record[color[0]], record[color[1]], record[color[2]]);
+    }
+    luminances_[first + place] = begin < end ? std::max(sum / (end - begin), 0.0) : 0;
+  }
+}
+
+void ObserveScan::include_positions(const SampleBuffer& rows) {
+  for (std::size_t place = 0; place + 1 < rows.first_sample.size(); ++place) {
+    const std::uint32_t first = rows.first_sample[place];
+    if (first == rows.first_sample[place + 1] || !view_.has_position(rows.record(first))) continue;
+    for (std::size_t k = 0; k < 3; ++k) positions_[k].push_back(view_.position(rows.record(first), k));
+  }
+}
+
+void ObserveScan::leave_constant(const SampleBuffer& rows, std::vector<int>& inputs, FirstValues& first) const {
+  InputBlock block;
+  RecordView view = view_.only(inputs);
+  for (std::size_t i = 0; i < rows.sample_count() && !inputs.empty(); i += block_records) {
+    const std::size_t count = std::min(block_records, rows.sample_count() - i);
+    view.read(rows.record(i), count, found_.positions, block);
+    const bool are_first = !std::exchange(first.are_known, true);
+    for (const int input : inputs)
+      if (are_first) first.values[input] = block.values[input][0];
+    const auto varies = [&](int input) {
+      const float* values = block.values[input];
+      return std::any_of(values, values + count, [&](float value) { return value != first.values[input]; });
+    };
+    const auto varying = std::remove_if(inputs.begin(), inputs.end(), varies);
+    if (varying == inputs.end()) continue;
+    inputs.erase(varying, inputs.end());
+    view = view_.only(inputs);
+  }
+}
+
+/// The power of two that exposes the frame: of the mean luminance, without what is far above the median. Over all
+/// samples, in the order of the pixels.
+float ObserveScan::exposure() const {
+  std::vector<double> positive;
+  std::copy_if(luminances_.begin(), luminances_.end(), std::back_inserter(positive), [](double l) { return l > 0; });
+  if (positive.empty()) return 1;
+  const double limit = 8 * lower_median(std::move(positive));
+  double sum = 0;
+  for (const double l : luminances_) sum += std::min(l, limit);
+  const double mean = sum / static_cast<double>(luminances_.size());
+  return power_of_two(-2 - std::ilogb(mean * radiance_scale(found_.cleaned.brightest)));
+}
+
+void ObserveScan::finish() {
+  found_.cleaned = cleaning_.report();
+  if (!found_.cleaned.has_color) {
+    found_.has_hit = false;
+    largest_weight_ = 0;
+    for (auto& component : positions_) component.clear();
+    std::fill(luminances_.begin(), luminances_.end(), 0);
+  }
+  for (const LostPixel& lost : found_.cleaned.lost) {
+    double sum = 0;
+    for (std::uint32_t i = 0; i < lost.samples; ++i) sum += luminance(lost.color[0], lost.color[1], lost.color[2]);
+    luminances_[lost.pixel] = std::max(sum / lost.samples, 0.0);
+  }
+  found_.exposure = exposure();
+  found_.weight_scale = largest_weight_ > 0 ? power_of_two(-std::ilogb(largest_weight_)) : 1;
+  found_.positions = facts_of(positions_);
+  luminances_ = {};
+  for (auto& component : positions_) component = {};
+}
+
+ObservedFindings ObserveScan::findings() {
+  if (found_.cleaned.has_color) {
+    std::set_union(plain_.begin(), plain_.end(), relative_.begin(), relative_.end(),
+                   std::back_inserter(found_.constant));
+  } else {
+    for (int input = RPF_INPUT_NORMAL; input < RPF_INPUTS; ++input)
+      if (view_.has(input)) found_.constant.push_back(input);
+  }
+  return std::move(found_);
+}
+
+}  // namespace rpf

@@ -1,0 +1,68 @@
+// What the learned estimator has to know of all samples of a frame together (docs/network.md, "Frame facts"): found out
+// rows after rows.
+#pragma once
+
+#include <vector>
+
+#include "frame/clean.h"
+#include "frame/clean_frame.h"
+#include "learned/record_view.h"
+
+namespace rpf {
+
+/// Of the positions of the first sample of every pixel that has one.
+struct PositionFacts {
+  double median[3] = {};  ///< lower median of each component
+  double deviation = 1;   ///< mean absolute deviation from it, over the components too; 1 where all are one
+};
+
+/// Enough to observe any rows of the frame.
+struct ObservedFindings {
+  CleanReport cleaned;
+  PositionFacts positions;
+  float exposure = 1, weight_scale = 1;  ///< as in EstimatePlan
+  bool has_hit = false;                  ///< whether any sample is of a hit
+  std::vector<int> constant;             ///< inputs that there are channels for and that do not vary
+};
+
+class ObserveScan {
+ public:
+  /// `frame`: may be without its samples; outlives this.
+  ObserveScan(const SampleBuffer& frame, const Settings& settings);
+
+  /// Cleans the next rows and looks at them.
+  void add(SampleBuffer& rows);
+  /// After all rows: then some inputs can be told that depend on where the others lie.
+  void finish();
+  /// Whether there are inputs of which it is not known yet whether they vary. Then cleaned rows are to be looked at
+  /// again, from the first on, until there are none or no rows are left; mostly the first rows are enough.
+  bool must_look_again() const { return !relative_.empty(); }
+  void look_again(const SampleBuffer& rows) { leave_constant(rows, relative_, first_relative_); }
+  /// In the end.
+  ObservedFindings findings();
+
+ private:
+  struct FirstValues {
+    bool are_known = false;
+    float values[RPF_INPUTS] = {};
+  };
+
+  void include_luminances(const SampleBuffer& rows);
+  void include_positions(const SampleBuffer& rows);
+  /// Leaves in `inputs` those that are for all samples what they are for the first of all.
+  void leave_constant(const SampleBuffer& rows, std::vector<int>& inputs, FirstValues& first) const;
+  float exposure() const;
+
+  Method method_;
+  CleanFrame clean_;
+  Cleaning cleaning_;
+  RecordView view_;
+  std::vector<double> luminances_;   ///< [pixel] in radiance as it is
+  std::vector<float> positions_[3];  ///< of each component
+  float largest_weight_ = 0;
+  std::vector<int> plain_, relative_;  ///< inputs that did not vary so far; relative: to where the positions lie
+  FirstValues first_plain_, first_relative_;
+  ObservedFindings found_;
+};
+
+}  // namespace rpf
