@@ -38,8 +38,7 @@ std::unique_ptr<SampleRows> open_sample_rows(const std::string& path, const Samp
 std::string find_facts(SampleRows& rows, const Settings& settings, const Control& control = {});
 
 /// filter(), of rows that are read when they are needed: the same bits. `facts`: of find_facts() with these settings,
-/// so that only those rows are read that the crop needs; empty: they are found first. Takes as much memory as
-/// predict_rows_memory() says. Throws as filter() does.
+/// so that only those rows are read that the crop needs; empty: they are found first. Throws as filter() does.
 Result filter_rows(SampleRows& rows, const Settings& settings, const std::string& facts = {},
                    const Control& control = {});
 

@@ -15,6 +15,7 @@
 #include "rpf/outputs.h"
 #include "rpf/presets.h"
 #include "rpf/ranges.h"
+#include "rpf/rows.h"
 #include "rpf/samples.h"
 #include "rpf/scene.h"
 #include "rpf/settings.h"

@@ -13,7 +13,10 @@ using Command = std::function<int()>;
 
 /// rpf INPUT -o OUTPUT. `arguments`: those of the command line, for what depends on them before and after parsing.
 Command add_filter_command(CLI::App& app, const std::vector<std::string>& arguments);
-Command add_info_command(CLI::App& app);      ///< rpf info FILE
+Command add_info_command(CLI::App& app);  ///< rpf info FILE
+/// rpf facts FILE -o FACTS. `arguments`: as above.
+Command add_facts_command(CLI::App& app, const std::vector<std::string>& arguments);
+Command add_join_command(CLI::App& app);      ///< rpf join PART... -o FILE
 Command add_compare_command(CLI::App& app);   ///< rpf compare IMAGE... REFERENCE
 Command add_report_command(CLI::App& app);    ///< rpf report IN OUT [REF] -o PAGE
 Command add_explain_command(CLI::App& app);   ///< rpf explain FILE -o DIR

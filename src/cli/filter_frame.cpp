@@ -7,6 +7,7 @@
 #include "cli/dropped.h"
 #include "cli/feature_files.h"
 #include "cli/frame_page.h"
+#include "cli/frame_part.h"
 #include "cli/method_options.h"
 #include "cli/needs.h"
 #include "cli/print.h"
@@ -15,6 +16,7 @@
 #include "rpf/error.h"
 #include "rpf/methods.h"
 #include "rpf/outputs.h"
+#include "rpf/rows.h"
 
 namespace rpf::cli {
 namespace {
@@ -103,17 +105,35 @@ void check_features(const FilterOptions& options, const SampleFileInfo& info) {
     throw Error(ErrorKind::usage, fmt::format("--aov: \"{}\" has no features; leave it out", info.path));
 }
 
+/// A part of a frame, or a whole one of which facts are known.
+void open_parts(OpenFrame& frame) {
+  const FilterOptions& options = frame.options;
+  if (options.rows.empty() && options.facts.empty()) return;
+  const char* option = options.rows.empty() ? "--facts" : "--rows";
+  if (frame.input.is_image())
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: \"{}\" is an image; only samples are read by rows", option, options.input));
+  if (!options.report.empty() || !options.time_budget.empty())
+    throw Error(ErrorKind::usage, fmt::format("{}: {} needs the whole frame; leave one of them out", option,
+                                              options.report.empty() ? "--time-budget" : "--report"));
+  frame.by_rows = true;
+  if (!options.facts.empty()) frame.facts = read_facts(options.facts, options.input, frame.settings, options.map);
+  if (!options.rows.empty()) frame.settings.crop = rows_of(options.rows, frame.input.info.data_window);
+}
+
 }  // namespace
 
 OpenFrame open_frame(const FilterOptions& options) {
   check_usage(options);
-  OpenFrame frame{options, settings_of(options), {}, {}, 0};
+  OpenFrame frame{options, settings_of(options), {}, {}, 0, false, {}};
   frame.reading = read_options_of(options.map, frame.settings.max_memory);
   frame.input = open_input(options.input, frame.settings.method, frame.reading);
   const SampleFileInfo& info = frame.input.info;
   if (frame.input.is_image() && options.sigma_color == 0) frame.settings.sigma_color = image_sigma_color;
   check_features(options, info);
-  frame.need = check_budget(frame.input, frame.settings, options.verbose || options.dry_run, !options.report.empty());
+  open_parts(frame);
+  if (!frame.by_rows)
+    frame.need = check_budget(frame.input, frame.settings, options.verbose || options.dry_run, !options.report.empty());
   if (frame.settings.crop) check_crop(*frame.settings.crop, info.data_window);
   check_outputs(planned_outputs(options, frame.input, frame.settings), {options.input});
   const SampleFileInfo stored = as_image(info, options.output);
@@ -124,23 +144,41 @@ OpenFrame open_frame(const FilterOptions& options) {
 }
 
 std::uint64_t read_bytes(const OpenFrame& frame) {
+  if (frame.by_rows) return 0;
   const SampleFileInfo& info = frame.input.info;
   const std::uint64_t columns = frame.reading.slots->size() + spare_columns;
   return (info.sample_count * columns + info.data_window.pixel_count()) * sizeof(float);
 }
 
+Origin origin_of(const OpenFrame& frame) {
+  if (!frame.facts.facts.empty()) return frame.facts.origin;
+  const FilterOptions& options = frame.options;
+  const std::string hash = hash_of_file(options.input);
+  if (!options.rows.empty()) return frame_origin(hash, frame.settings, options.map);
+  return {hash, hash_of_settings(frame.settings, options.map)};
+}
+
+bool is_wanted(const OpenFrame& frame, const Image& image) {
+  return frame.options.rows.empty() || is_part(image, *frame.settings.crop, frame.input.info.data_window);
+}
+
 ReadFrame read_frame(const OpenFrame& frame) {
-  return {read_input(frame.input, frame.reading), hash_of_file(frame.options.input)};
+  if (frame.by_rows) return {{}, origin_of(frame)};
+  return {read_input(frame.input, frame.reading), origin_of(frame)};
 }
 
 Result filter_and_write(const OpenFrame& frame, const Settings& settings, ReadFrame read) {
   const FilterOptions& options = frame.options;
   const bench::CostClock clock;
   Result result = with_progress(options.quiet ? "never" : options.progress, [&](const Control& control) {
-    return filter(std::move(read.samples), settings, control);
+    if (!frame.by_rows) return filter(std::move(read.samples), settings, control);
+    const auto rows = open_sample_rows(options.input, frame.reading);
+    return filter_rows(*rows, settings, frame.facts.facts, control);
   });
-  for (Image* image : {&result.image, &result.features})
-    mark(*image, {read.input_hash, hash_of_settings(settings, options.map)});
+  for (Image* image : {&result.image, &result.features}) {
+    mark(*image, read.origin);
+    if (!options.rows.empty()) mark_part(*image, frame.input.info.data_window);
+  }
   write_results(options, result);
   if (!options.report.empty())
     write_frame_page({options.input, options.output, "", options.report, frame.reading, settings,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bench/frame_run.h"
+#include "cli/facts_file.h"
 #include "cli/filter_input.h"
 #include "cli/filter_options.h"
 #include "cli/origin.h"
@@ -19,14 +20,22 @@ struct OpenFrame {
   SampleReadOptions reading;
   FilterInput input;
   std::uint64_t need = 0;  ///< peak bytes of reading and filtering
+  bool by_rows = false;    ///< rows are read when they are needed
+  FactsFile facts;         ///< of the whole frame, where there are any
 };
+
+/// What it is made from, and how; reads the file where there are no facts.
+Origin origin_of(const OpenFrame& frame);
+
+/// Whether an image is that part of the frame that is wanted.
+bool is_wanted(const OpenFrame& frame, const Image& image);
 
 /// Refuses what cannot be done before anything is read. Throws Error.
 OpenFrame open_frame(const FilterOptions& options);
 
 struct ReadFrame {
-  SampleBuffer samples;
-  std::string input_hash;
+  SampleBuffer samples;  ///< none where rows are read when they are needed
+  Origin origin;
 };
 
 /// Bytes that a frame takes once it is read.

@@ -115,6 +115,17 @@ void add_run_options(CLI::App& app, FilterOptions& o) {
   app.add_option("--crop", o.crop, "Filter only this part; its pixels are those of the whole frame")
       ->type_name("WxH+X+Y")
       ->group(group);
+  app.add_option("--rows", o.rows,
+                 "Filter only these rows, such as 0-269, or the first, second, ... of so many parts of them, such as "
+                 "2/4; rpf join makes a whole of parts")
+      ->type_name("A-B|PART/PARTS")
+      ->excludes("--crop")
+      ->group(group);
+  app.add_option(
+         "--facts", o.facts,
+         "What rpf facts found in the whole frame with these settings, so that only rows that are needed are read")
+      ->type_name("FILE")
+      ->group(group);
   add_machine_options(app, o);
   app.add_flag("--dry-run", o.dry_run, "Check options, files and memory; write nothing")->group(group);
   app.add_flag("-v,--verbose", o.verbose, "Say what every pass did")->group(group);
@@ -189,11 +200,15 @@ CLI::Option* add_memory_option(CLI::App& app, std::uint64_t& megabytes) {
                      "RPF_MAX_MEMORY_MB");
 }
 
-void add_filter_options(CLI::App& app, FilterOptions& options) {
-  add_file_options(app, options);
+void add_picture_options(CLI::App& app, FilterOptions& options) {
   add_method_options(app, options);
   add_model_options(app, options);
   add_tuning_options(app, options);
+}
+
+void add_filter_options(CLI::App& app, FilterOptions& options) {
+  add_file_options(app, options);
+  add_picture_options(app, options);
   add_run_options(app, options);
 }
 

@@ -20,6 +20,7 @@ struct FilterOptions {
   std::uint64_t max_memory_mb = 0;  ///< 0: not given
   std::string progress = "auto";
   std::string preset, time_budget;
+  std::string facts, rows;  ///< of a frame that is filtered in parts
   bool verbose = false, quiet = false, dry_run = false;
   Settings settings;  ///< the options that need no translation
 
@@ -50,6 +51,9 @@ void start_from_named_settings(const std::vector<std::string>& arguments, const 
 /// Parses the options of a filter run alone, with a preset to start from; empty: none but what --preset says. Throws
 /// CLI::ParseError, and Error(usage) for an unknown preset.
 FilterOptions parse_filter_options(const std::vector<std::string>& arguments, const std::string& preset = {});
+
+/// The options that say what is made of the samples: those that facts of a frame depend on.
+void add_picture_options(CLI::App& app, FilterOptions& options);
 
 /// Translates the options. Throw Error(usage) that names the option.
 Settings settings_of(const FilterOptions& options);

@@ -23,6 +23,9 @@ constexpr const char* footer = R"(Examples:
   rpf compare before.exr filtered.exr reference.exr --side-by-side picture.png
   rpf report render.samples.exr filtered.exr -o page.html
   rpf merge seed-1.samples.exr seed-2.samples.exr -o both.samples.exr
+  rpf facts render.samples.exr -o facts.json
+  rpf render.samples.exr -o part.2.exr --rows 2/4 --facts facts.json
+  rpf join part.1.exr part.2.exr part.3.exr part.4.exr -o filtered.exr
   rpf explain render.samples.exr -o explained --pixel 120,80
   rpf density render.samples.exr --spp 4 -o density.exr
   rpf convert theirs.exr -o ours.samples.exr
@@ -49,6 +52,7 @@ int run(int argc, char** argv) {
       {"selftest", add_selftest_command(app)}, {"bench", add_bench_command(app)},
       {"study", add_study_command(app)},       {"manual", add_manual_command(app)},
       {"density", add_density_command(app)},
+      {"join", add_join_command(app)},         {"facts", add_facts_command(app, {argv + 1, argv + argc})},
   };
   try {
     app.parse(argc, argv);

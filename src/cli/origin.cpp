@@ -18,8 +18,6 @@
 namespace rpf::cli {
 namespace {
 
-constexpr const char *input_attribute = "rpf:inputHash", *settings_attribute = "rpf:settingsHash";
-
 /// FNV-1a over words of 8 bytes, with a second multiplication that lets high bits reach low ones: for telling files
 /// apart that nobody forged, as fast as they are read.
 class Hash {
@@ -75,6 +73,20 @@ std::string hash_of_file(const std::string& path) {
   return hash.text();
 }
 
+std::string hash_of_ends(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) throw Error(ErrorKind::input, fmt::format("\"{}\" cannot be opened; name a file that can be read", path));
+  const auto size = static_cast<std::uint64_t>(file.tellg());
+  std::vector<char> block(std::min<std::uint64_t>(size, 1 << 20));
+  Hash hash;
+  for (const std::uint64_t at : {std::uint64_t{0}, size - block.size()}) {
+    file.seekg(static_cast<std::streamoff>(at));
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    hash.add(block.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  return fmt::format("{}-{}", size, hash.text());
+}
+
 std::string hash_of_settings(const Settings& settings, const std::vector<std::string>& map) {
   const std::string text = fmt::format("{} [{}]", text_of(settings), fmt::join(map, ","));
   Hash hash;
@@ -87,12 +99,13 @@ void mark(Image& image, const Origin& origin) {
   image.metadata[settings_attribute] = origin.settings;
 }
 
-bool is_made(const std::string& path, const Origin& origin) {
+bool is_made(const std::string& path, const Origin& origin, const std::function<bool(const Image&)>& is_wanted) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown)) return false;
   try {
     const Image image = read_image(path);  // all of it: a file may have been cut
-    return has(image, input_attribute, origin.input) && has(image, settings_attribute, origin.settings);
+    return has(image, input_attribute, origin.input) && has(image, settings_attribute, origin.settings) &&
+           is_wanted(image);
   } catch (const Error&) {
     return false;
   }

@@ -2,6 +2,7 @@
 // is missing.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,17 +17,24 @@ struct Origin {
   std::string input, settings;
 };
 
+/// The attributes that they stand in.
+constexpr const char *input_attribute = "rpf:inputHash", *settings_attribute = "rpf:settingsHash";
+
 /// Throws Error(input) where it cannot be read.
 std::string hash_of_file(const std::string& path);
 
 /// `map`: --map, which decides what is read.
 std::string hash_of_settings(const Settings& settings, const std::vector<std::string>& map);
 
-/// Writes them into the attributes rpf:inputHash and rpf:settingsHash.
+/// What a process that reads only some rows can tell of a file: its size, and a hash of that and of what stands at both
+/// of its ends. Throws Error(input) where it cannot be read.
+std::string hash_of_ends(const std::string& path);
+
+/// Writes them into their attributes.
 void mark(Image& image, const Origin& origin);
 
-/// Whether a whole image is there that was made from this input with these settings. Formats that hold no attributes
-/// cannot tell, so theirs is always made again.
-bool is_made(const std::string& path, const Origin& origin);
+/// Whether a whole image is there that was made from this input with these settings, and that `is_wanted`. Formats that
+/// hold no attributes cannot tell, so theirs is always made again.
+bool is_made(const std::string& path, const Origin& origin, const std::function<bool(const Image&)>& is_wanted);
 
 }  // namespace rpf::cli

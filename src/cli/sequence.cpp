@@ -66,6 +66,7 @@ std::vector<Task> tasks_of(const FilterOptions& filter, const SequenceOptions& o
     task.options.output = frame_path("-o", filter.output, number);
     task.options.aov = frame_path("--aov", filter.aov, number);
     task.options.report = frame_path("--report", filter.report, number);
+    task.options.facts = frame_path("--facts", filter.facts, number);
     tasks.push_back(task);
   }
   return tasks;
@@ -74,9 +75,10 @@ std::vector<Task> tasks_of(const FilterOptions& filter, const SequenceOptions& o
 bool was_made(const OpenFrame& frame) {
   const FilterOptions& options = frame.options;
   if (options.output.empty()) return false;
-  const Origin origin{hash_of_file(options.input), hash_of_settings(frame.settings, options.map)};
+  const Origin origin = origin_of(frame);
+  const auto is_it = [&](const Image& image) { return is_wanted(frame, image); };
   std::error_code unknown;
-  return is_made(options.output, origin) && (options.aov.empty() || is_made(options.aov, origin)) &&
+  return is_made(options.output, origin, is_it) && (options.aov.empty() || is_made(options.aov, origin, is_it)) &&
          (options.report.empty() || std::filesystem::is_regular_file(options.report, unknown));
 }
 

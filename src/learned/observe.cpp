@@ -83,7 +83,7 @@ Observed observe(SampleBuffer samples, const Settings& settings, std::shared_ptr
   scan.look_again(samples);
   const ObservedFindings found = scan.findings();
   Observed observed = observe_frame(frame, found, settings, std::move(network));
-  observe_rows(std::move(samples), frame, found, settings, observed);
+  observe_rows(std::move(samples), frame, found, settings, observed.plan, observed.prepared);
   return observed;
 }
 
@@ -109,12 +109,11 @@ Observed observe_frame(const SampleBuffer& whole, const ObservedFindings& found,
 }
 
 void observe_rows(SampleBuffer rows, const SampleBuffer& whole, const ObservedFindings& found, const Settings& settings,
-                  Observed& observed) {
+                  const EstimatePlan& plan, PreparedFrame& prepared) {
   CleanFrame clean = begin_frame(whole, settings);
   take_report(clean, found.cleaned);
   take_rows(clean, std::move(rows), found.cleaned, settings.method);
-  const std::vector<int> columns = columns_of(observed.plan);
-  PreparedFrame& prepared = observed.prepared;
+  const std::vector<int> columns = columns_of(plan);
   Frame& frame = prepared.frame;
   prepared.colors = carried_values(clean, false);
   frame.weights = std::move(clean.prepared.frame.weights);

@@ -25,6 +25,6 @@ Observed observe_frame(const SampleBuffer& frame, const ObservedFindings& found,
 /// Fills in what is known of some rows, or all, that were cleaned: records, weights, what is carried beside the color,
 /// and first_sample, where the other rows are without samples.
 void observe_rows(SampleBuffer rows, const SampleBuffer& frame, const ObservedFindings& found, const Settings& settings,
-                  Observed& observed);
+                  const EstimatePlan& plan, PreparedFrame& prepared);
 
 }  // namespace rpf

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frame/clean_frame.h"
 #include "frame/resolve.h"
 #include "learned/network_file.h"
 #include "learned/observe.h"
@@ -73,20 +74,13 @@ std::size_t color_channels(const PreparedFrame& prepared) {
 /// One run: frame, plan and backend together.
 class Run {
  public:
+  /// Of all samples of a frame.
   Run(SampleBuffer samples, const Settings& settings, const Control& control)
-      : settings_(settings), control_(control), threads_(thread_count(settings)) {
-    samples.validate();
-    validate(settings);
-    geometry_.data_window = settings.crop.value_or(samples.data_window);
-    geometry_.display_window = samples.display_window;
-    geometry_.metadata = samples.metadata;
+      : Run(samples, samples, settings, control) {
     check_memory(samples, settings);
     backend_ = make_backend(settings);
-    raw_ = {frame_size(samples), samples.layout, room_of(samples)};
     if (settings.method == Method::learned) {
-      Observed observed = observe(std::move(samples), settings, find_network(settings.model));
-      prepared_ = std::move(observed.prepared);
-      estimate_plan_ = std::move(observed.plan);
+      take(observe(std::move(samples), settings, find_network(settings.model)));
       return;
     }
     prepared_ = prepare(std::move(samples), settings);
@@ -97,12 +91,46 @@ class Run {
       plan_ = make_plan(prepared_.facts, settings);
   }
 
+  /// Of some rows, with what was found in the whole frame.
+  Run(SampleBuffer rows, const SampleBuffer& frame, const RowFacts& facts, const Settings& settings,
+      const Control& control)
+      : Run(rows, frame, settings, control) {
+    backend_ = make_backend(settings);
+    clean_again(rows, find_columns(frame, settings.clamp_infinite), settings.clamp_negative);
+    if (const auto* observed = std::get_if<ObservedFindings>(&facts)) {
+      take(observe_frame(frame, *observed, settings, find_network(settings.model)));
+      observe_rows(std::move(rows), frame, *observed, settings, estimate_plan_, prepared_);
+      return;
+    }
+    const auto& found = std::get<FrameFindings>(facts);
+    prepared_ = prepare_rows(std::move(rows), frame, found, settings);
+    drop_channels(prepared_, found.uninformative);
+    plan_ = make_plan(prepared_.facts, settings);
+  }
+
   Result finish(const PassObserver& before_pass) {
     if (settings_.method == Method::learned) return estimate();
     return filters_pixels(settings_.method) ? filter_pixels() : run_passes(before_pass);
   }
 
  private:
+  /// What does not depend on how samples come.
+  Run(const SampleBuffer& samples, const SampleBuffer& frame, const Settings& settings, const Control& control)
+      : settings_(settings), control_(control), threads_(thread_count(settings)) {
+    samples.validate();
+    validate(settings);
+    geometry_.data_window = settings.crop.value_or(frame.data_window);
+    geometry_.display_window = frame.display_window;
+    geometry_.metadata = frame.metadata;
+    raw_ = {frame_size(samples), samples.layout, room_of(samples)};
+    raw_.size.pixels = frame.data_window.pixel_count();
+  }
+
+  void take(Observed observed) {
+    prepared_ = std::move(observed.prepared);
+    estimate_plan_ = std::move(observed.plan);
+  }
+
   Pixels resolved() const { return resolve(prepared_.frame, backend_->colors(), plan_.carried); }
 
   Result run_passes(const PassObserver& before_pass) {
@@ -266,6 +294,11 @@ void describe_input(const Backend& backend, const PreparedFrame& prepared, Repor
 Result run_filter(SampleBuffer samples, const Settings& settings, const Control& control,
                   const PassObserver& before_pass) {
   return Run(std::move(samples), settings, control).finish(before_pass);
+}
+
+Result run_rows(SampleBuffer rows, const SampleBuffer& frame, const RowFacts& facts, const Settings& settings,
+                const Control& control) {
+  return Run(std::move(rows), frame, facts, settings, control).finish({});
 }
 
 Result filter(SampleBuffer samples, const Settings& settings, const Control& control) {

@@ -5,6 +5,7 @@
 
 #include "frame/prepare.h"
 #include "rpf/filter.h"
+#include "run/row_facts.h"
 #include "seam/backend.h"
 
 namespace rpf {
@@ -15,6 +16,11 @@ using PassObserver = std::function<void(Backend&, const Plan&, int pass)>;
 /// filter() of the public header, with an observer.
 Result run_filter(SampleBuffer samples, const Settings& settings, const Control& control,
                   const PassObserver& before_pass);
+
+/// The same of rows that were read, with what was found in the whole frame. They hold all that the crop reads around
+/// it; `frame` is without samples.
+Result run_rows(SampleBuffer rows, const SampleBuffer& frame, const RowFacts& facts, const Settings& settings,
+                const Control& control);
 
 /// What a report says beside the passes: backend, modeled channels, notes about the input.
 void describe_input(const Backend& backend, const PreparedFrame& prepared, Report& report);

@@ -24,21 +24,30 @@ void repack(Frame& frame, const std::vector<std::size_t>& kept) {
 }  // namespace
 
 void drop_uninformative(PreparedFrame& prepared, const Settings& settings) {
+  std::vector<std::string> names;
+  for (const ChannelEvidence& channel : measure_information(prepared, settings))
+    if (channel.is_uninformative()) names.push_back(channel.name);
+  drop_channels(prepared, names);
+}
+
+void drop_channels(PreparedFrame& prepared, const std::vector<std::string>& names) {
   Variables variables;
   std::vector<std::size_t> kept(Variables::random);  // color and position
   std::iota(kept.begin(), kept.end(), 0);
-  const std::size_t features = prepared.facts.variables.features();
   std::size_t v = Variables::random;
-  for (const ChannelEvidence& channel : measure_information(prepared, settings)) {
-    if (channel.is_uninformative()) {
-      prepared.uninformative.push_back(channel.name);
-    } else {
-      kept.push_back(v);
-      (v < features ? variables.random_names : variables.feature_names).push_back(channel.name);
+  const auto keep = [&](const std::vector<std::string>& from, std::vector<std::string>& to) {
+    for (const std::string& name : from) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) {
+        kept.push_back(v);
+        to.push_back(name);
+      }
+      ++v;
     }
-    ++v;
-  }
-  if (prepared.uninformative.empty()) return;
+  };
+  keep(prepared.facts.variables.random_names, variables.random_names);
+  keep(prepared.facts.variables.feature_names, variables.feature_names);
+  prepared.uninformative = names;
+  if (names.empty()) return;
   prepared.facts.variables = variables;
   repack(prepared.frame, kept);
 }

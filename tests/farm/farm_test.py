@@ -23,6 +23,33 @@ fi
 exec "{rpf}" "$@"
 """
 
+# The same, where the first process that filters rows is killed before it is done.
+PART_KILLED_ONCE = """#!/bin/sh
+case "$*" in *--rows*)
+  if mkdir "{folder}/killed" 2>/dev/null; then
+    "{rpf}" "$@" & child=$!
+    sleep 0.05
+    kill -KILL $child; kill -KILL $$
+  fi;;
+esac
+exec "{rpf}" "$@"
+"""
+PARTS = 4
+
+
+def has_dask():
+    return subprocess.run(["/usr/bin/python3", "-c", "import dask.distributed"], capture_output=True, check=False).returncode == 0
+
+
+def has_slurm():
+    return shutil.which("sinfo") is not None and subprocess.run(["sinfo", "-h", "-o", "%a"], capture_output=True, text=True, timeout=60, check=False).stdout.strip() == "up"
+
+
+def slurm_states(*jobs):
+    """"12_1": "FAILED", of all tasks of these jobs."""
+    lines = subprocess.run(["squeue", "-h", "-a", "-r", "-j", ",".join(jobs), "-t", "all", "-o", "%i %T"], capture_output=True, text=True, check=False).stdout.split("\n")
+    return dict(line.split() for line in lines if line)
+
 
 class FarmTest(unittest.TestCase):
     @classmethod
@@ -64,16 +91,14 @@ class FarmTest(unittest.TestCase):
         self.expect_all()
 
     def test_dask(self):
-        try:
-            self.run_here("/usr/bin/python3", "-c", "import dask.distributed")
-        except AssertionError:
+        if not has_dask():
             self.skipTest("dask is not installed (Debian: apt-get install python3-distributed)")
         self.run_here("/usr/bin/python3", FARM / "with_dask.py", self.folder / "in.####.exr", self.folder / "out.####.exr", 3, RPF=self.rpf)
         self.expect_all()
 
     def test_slurm_array(self):
         """With the machine's own Slurm where one answers; the task that is killed is requeued by hand, as an operator would."""
-        if shutil.which("sinfo") is None or subprocess.run(["sinfo", "-h", "-o", "%a"], capture_output=True, text=True, timeout=60, check=False).stdout.strip() != "up":
+        if not has_slurm():
             self.skipTest("no Slurm answers here (Debian: slurm-wlm and munge, one node)")
         job = self.run_here("sbatch", "--parsable", FARM / "slurm_array.sh", self.folder / "in.####.exr", self.folder / "out.####.exr", RPF=self.rpf).stdout.split(";")[0].strip()
         requeued = False
@@ -87,6 +112,60 @@ class FarmTest(unittest.TestCase):
                 break
             time.sleep(0.5)
         self.expect_all()
+
+
+class OneFrameTest(unittest.TestCase):
+    """One frame by several processes, one of them killed: the file of one process."""
+
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="rpf_farm_"))
+        self.frame, self.single, self.out = (self.folder / name for name in ("in.exr", "single.exr", "out.exr"))
+        FarmTest.folder = self.folder
+        FarmTest.run_here(RPF, "scene", "motion", "--size", "120x160", "--spp", 4, "-o", self.frame)
+        FarmTest.run_here(RPF, self.frame, "-o", self.single, "-q")
+        self.rpf = self.folder / "rpf"
+        self.rpf.write_text(PART_KILLED_ONCE.format(folder=self.folder, rpf=RPF))
+        self.rpf.chmod(0o755)
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def expect_whole(self):
+        self.assertTrue((self.folder / "killed").is_dir(), "no process was killed")
+        self.assertEqual(self.out.read_bytes(), self.single.read_bytes())
+
+    def test_dask(self):
+        if not has_dask():
+            self.skipTest("dask is not installed (Debian: apt-get install python3-distributed)")
+        FarmTest.run_here("/usr/bin/python3", FARM / "parts_with_dask.py", self.frame, self.out, PARTS, RPF=self.rpf)
+        self.expect_whole()
+
+    def wait_for(self, *jobs):
+        """Until all their tasks are done in one way or another."""
+        for _ in range(600):
+            states = slurm_states(*jobs)
+            if states and all(state in ("COMPLETED", "FAILED", "NODE_FAIL") for state in states.values()):
+                return [task for task, state in states.items() if state != "COMPLETED"]
+            time.sleep(0.5)
+        raise AssertionError(states)
+
+    def test_slurm_array(self):
+        """The join finds that a part is missing and says so; once that is requeued, so is the join."""
+        if not has_slurm():
+            self.skipTest("no Slurm answers here (Debian: slurm-wlm and munge, one node)")
+        jobs = FarmTest.run_here(FARM / "slurm_parts.sh", self.frame, self.out, PARTS, RPF=self.rpf).stdout.split()
+        failed = self.wait_for(*jobs)
+        self.assertEqual(len(failed), 2, failed)
+        part = next(task for task in failed if "_" in task)
+        number = int(part.split("_")[1])
+        log = (self.folder / f"slurm-{jobs[-1]}.out").read_text()
+        self.assertIn(f"rows {160 * (number - 1) // PARTS}-{160 * number // PARTS - 1} are missing", log)
+        self.assertFalse(self.out.exists())
+        for task in (part, jobs[-1]):
+            FarmTest.run_here("scontrol", "requeue", task)
+            time.sleep(1)
+            self.assertEqual(self.wait_for(task), [])
+        self.expect_whole()
 
 
 if __name__ == "__main__":
