@@ -7,6 +7,7 @@
 #include "cli/print.h"
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
+#include "rpf/error.h"
 #include "rpf/outputs.h"
 #include "rpf/rows.h"
 
@@ -14,6 +15,8 @@ namespace rpf::cli {
 namespace {
 
 int run(const FilterOptions& options) {
+  if (!options.time_budget.empty())
+    throw Error(ErrorKind::usage, "facts: --time-budget leaves open which preset it is; name one with --preset");
   const Settings settings = settings_of(options);
   SampleReadOptions reading = read_options_of(options.map, settings.max_memory);
   const SampleFileInfo info = inspect_samples(options.input, reading);

@@ -10,7 +10,10 @@
 namespace rpf {
 namespace {
 
-std::string list(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, " ")); }
+/// Not empty: an attribute without text gets lost in many programs.
+std::string list(const std::vector<std::string>& names) {
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
+}
 
 std::string neighborhood_text(const Settings& s) {
   std::string text = s.samples_factor              ? fmt::format("{} b^2", *s.samples_factor)

@@ -11,6 +11,7 @@ NEIGHBORHOOD, STATISTICS = "src/cpu/neighborhood.cpp", "src/cpu/statistics.cpp"
 WEIGHTING, BACKEND = "src/cpu/weighting.cpp", "src/cpu/cpu_backend.cpp"
 PLAN, TABLES, CLEAN, CLEAN_FRAME = "src/plan/plan.cpp", "src/plan/tables.cpp", "src/frame/clean.cpp", "src/frame/clean_frame.cpp"
 SIZE, REGIONS, RANGES = "src/plan/neighborhood_size.cpp", "src/plan/regions.cpp", "include/rpf/ranges.h"
+FRAME_SCAN, OBSERVE_SCAN, ROWS = "src/frame/frame_scan.cpp", "src/learned/observe_scan.cpp", "src/run/rows.cpp"
 PREPARE, DRIVER, RESOLVE = "src/frame/prepare.cpp", "src/run/driver.cpp", "src/frame/resolve.cpp"
 MERGE, RAW_READER, HDR_FLIP = "src/frame/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
 SELECTION = "src/frame/selection.cpp"
@@ -50,9 +51,9 @@ MUTANTS = [
     # ---------------------------------------------------------------- 1. input
     Mutant("nan_sample_kept", CLEAN, "return std::isfinite(record[c]); };", "return !std::isinf(record[c]); };",
            BOTH + "LeavesOutSamplesThatAreNotFinite/*", "input: a NaN color is used"),
-    Mutant("constant_channel_kept", PREPARE, "const bool constant = is_constant(samples, source);", "const bool constant = false;",
+    Mutant("constant_channel_kept", FRAME_SCAN, "if (!channel.varies || ", "if (",
            "oracle spp1_paper variables", "input: constant channels are modeled"),
-    Mutant("constant_channel_trace", PREPARE, "const bool constant = is_constant(samples, source);", "const bool constant = false;",
+    Mutant("constant_channel_trace", FRAME_SCAN, "if (!channel.varies || ", "if (",
            BOTH + "DropsAConstantChannelWithoutATrace/*", "input: constant channels are modeled"),
     Mutant("information_peak", INFORMATION, "least_peak = 4;", "least_peak = 4000;",
            "Filter.KeepsAChannelThatMattersInASmallPartOfTheFrameOnly", "information: only the mean over the frame counts"),
@@ -67,15 +68,15 @@ MUTANTS = [
     Mutant("information_crop", INFORMATION, "grid(plan.width, plan.height)",
            "grid(prepared.facts.crop.width, prepared.facts.crop.height)",
            "Filter.LooksForInformationInTheWholeFrameWhateverTheCrop", "information: of the crop only"),
-    Mutant("information_names", INFORMATIVE, "v < features ?", "v + 1 < features ?",
+    Mutant("information_names", INFORMATIVE, "variables.random_names, variables.random_names);", "variables.random_names, variables.feature_names);",
            "Filter.WithoutUselessChannelsIsAsIfTheyWereNotThere", "information: a random parameter becomes a feature"),
     Mutant("information_repack", INFORMATIVE, "*to++ = record[v];", "*to++ = record[v % kept.size()];",
            "Filter.WithoutUselessChannelsIsAsIfTheyWereNotThere", "information: values of a dropped channel stay"),
-    Mutant("pixel_fraction", PREPARE, "value - std::floor(value) : value", "value : value",
+    Mutant("pixel_fraction", FRAME_SCAN, "value - std::floor(value) : value", "value : value",
            "oracle spp4_thesis mean", "input: the film position as random parameter"),
-    Mutant("hit_mask_ignored", PREPARE, "if (columns.hit) return record[*columns.hit] != 0;", "",
+    Mutant("hit_mask_ignored", FRAME_SCAN, "if (columns.hit) return record[*columns.hit] != 0;", "",
            "PositionDiagonal.LeavesOutRaysThatTheHitChannelCallsMissed", "input: feature.hit is not read"),
-    Mutant("missed_rays_in_box", PREPARE, "return columns.normal.empty() || ", "return true || ",
+    Mutant("missed_rays_in_box", FRAME_SCAN, "return columns.normal.empty() || ", "return true || ",
            "oracle missed_rays_unmarked tolerance", "input: a normal of 0 counts as a hit"),
     Mutant("scale_no_power_of_two", CLEAN_FRAME, "std::ldexp(1.0F, std::clamp(", "std::ldexp(1.1F, std::clamp(",
            "RadianceScale.IsThePowerOfTwoThatBringsTheBrightestTo2To40", "radiance scale: rounds"),
@@ -280,6 +281,12 @@ MUTANTS = [
            "oracle spp_varying_thesis image", "pixel mean: 0 / 0 without samples"),
     Mutant("tile_origin", BACKEND, "tile.x + place % tile.width", "place % tile.width",
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "tiles: tile-relative pixel"),
+    Mutant("rows_number", CLEAN, "lost_.push_back({first + place,", "lost_.push_back({place,", "Methods/Rows.FactsAreThoseOfTheWhole/*",
+           "rows: a lost pixel is looked for in the first rows"),
+    Mutant("rows_first_values", OBSERVE_SCAN, "std::exchange(first.are_known, true)", "std::exchange(first.are_known, false)",
+           "Methods/Rows.FactsAreThoseOfTheWhole/*", "rows: an input is constant that is so in every row"),
+    Mutant("rows_reach", ROWS, "reach += box_reach(width);", "reach = box_reach(width);", "Methods/Rows.OfACropAreThoseOfTheWhole/*",
+           "rows: what the first pass reads is not there"),
     Mutant("last_tile_lost", "src/run/tiles.cpp", "y < region.height; y += height)", "y + height <= region.height; y += height)",
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "tiles: the last band is skipped"),
     Mutant("crop_margin", REGIONS, "box_reach(pass->box_width)", "box_reach(pass->box_width) - 1",
@@ -298,8 +305,8 @@ MUTANTS = [
            "Merge.RefusesTheSameSamplesTwice", "merge: copies count as samples"),
     Mutant("raw_byte_order", RAW_READER, "b[1] << 8U", "b[1] << 16U",
            "Raw.IsRecognizedByItsContentAndDescribed", "raw: bytes in another order"),
-    Mutant("raw_unused_plane", RAW_READER, "begin += samples.sample_count() * word;",
-           "begin += channel.slot.empty() ? 0 : samples.sample_count() * word;",
+    Mutant("raw_unused_plane", RAW_READER, "plane += checked_.info.sample_count * word;",
+           "plane += channel.slot.empty() ? 0 : checked_.info.sample_count * word;",
            "Raw.AliasesAndMapWorkAndUnusedChannelsAreSkipped", "raw: planes of unused channels are not skipped"),
     Mutant("raw_counts_unchecked", RAW_READER, "if (sum != expected) fail();", "",
            "RawRefusals.EveryTruncationAndEveryByteMore", "raw: fewer samples than the file holds"),
@@ -325,9 +332,9 @@ MUTANTS = [
     # ---------------------------------------------------------------- extremes: the properties of docs/stability.md
     Mutant("extremes_alpha_uncounted", CLEAN, "findings.alpha.add(pixel);", "findings.negative.add(pixel);",
            "extremes BadAlpha.IsZeroAndCounted", "input: a bad alpha counts as negative radiance"),
-    Mutant("extremes_empty_uncounted", CLEAN, "findings.empty.add(pixel);", "findings.empty.add(0);",
+    Mutant("extremes_empty_uncounted", CLEAN, "findings.empty.add(first + place);", "findings.empty.add(0);",
            "extremes Counts.OfZeroAreBlackToldAndHarmless", "input: another pixel without samples"),
-    Mutant("extremes_window", PREPARE, ": value - source.origin;", ": value;",
+    Mutant("extremes_window", FRAME_SCAN, ": value - source.origin;", ": value;",
            "extremes DataWindow.MayLieAnywhere", "input: the place of the data window"),
     Mutant("extremes_shift_of_missing", NEIGHBORHOOD, "n.shift[v] = frame.record(n.neighbors[j])[v];", "n.shift[v] = 0;",
            "extremes World.OffsetThatTheInputSurvivesKeepsEveryBit", "normalization: far worlds where own samples miss"),

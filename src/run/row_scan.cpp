@@ -1,0 +1,114 @@
+#include "run/row_scan.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "frame/clean_frame.h"
+#include "frame/prepare.h"
+#include "rpf/error.h"
+#include "run/informative.h"
+#include "run/progress_meter.h"
+
+namespace rpf {
+namespace {
+
+/// The end of the rows from `first` on, at least one, that are read at once.
+int end_at_once(const SampleRows& rows, int first, std::uint64_t at_once) {
+  const std::uint64_t sample = rows.frame().layout.size() * sizeof(float);
+  const int height = rows.frame().data_window.height;
+  std::uint64_t bytes = 0;
+  int end = first;
+  do bytes += rows.row_samples(end++) * sample;
+  while (end < height && bytes + rows.row_samples(end) * sample <= at_once);
+  return end;
+}
+
+/// Calls use(rows) for all rows of a frame in turn, as long as it returns true; `tell` hears which part was done.
+template <class Use, class Tell>
+void for_all_rows(SampleRows& rows, std::uint64_t at_once, const Use& use, const Tell& tell) {
+  const int height = rows.frame().data_window.height;
+  for (int first = 0; first < height;) {
+    const int end = end_at_once(rows, first, at_once);
+    SampleBuffer part = rows.read(first, end);
+    if (!use(part)) return;
+    tell(static_cast<double>(end - first) / height);
+    first = end;
+  }
+}
+
+std::uint64_t samples_in(const SampleRows& rows, int first, int end) {
+  std::uint64_t samples = 0;
+  for (int row = first; row < end; ++row) samples += rows.row_samples(row);
+  return samples;
+}
+
+ObservedFindings find_observed(SampleRows& rows, const Settings& settings, ProgressMeter& meter,
+                               std::uint64_t at_once) {
+  ObserveScan scan(rows.frame(), settings);
+  const auto add = [&](SampleBuffer& part) {
+    scan.add(part);
+    return true;
+  };
+  for_all_rows(rows, at_once, add, [&](double part) { meter.add_part(part); });
+  scan.finish();
+  const Columns columns = find_columns(rows.frame(), settings.clamp_infinite);
+  const auto look_again = [&](SampleBuffer& part) {
+    clean_again(part, columns, settings.clamp_negative);
+    scan.look_again(part);
+    return scan.must_look_again();
+  };
+  if (scan.must_look_again()) for_all_rows(rows, at_once, look_again, [&](double /*part*/) { meter.check(); });
+  return scan.findings();
+}
+
+/// What takes all samples at once.
+void find_in_core(SampleRows& rows, const Settings& settings, FrameFindings& found) {
+  const int height = rows.frame().data_window.height;
+  check_rows(rows, 0, height, found.cleaned.most_samples, settings);
+  SampleBuffer all = rows.read(0, height);
+  clean_again(all, find_columns(rows.frame(), settings.clamp_infinite), settings.clamp_negative);
+  PreparedFrame prepared = prepare_rows(std::move(all), rows.frame(), found, settings);
+  found.feature_spread = prepared.facts.feature_spread;
+  if (settings.method == Method::rpf) drop_uninformative(prepared, settings);
+  found.uninformative = prepared.uninformative;
+}
+
+FrameFindings find_frame(SampleRows& rows, const Settings& settings, ProgressMeter& meter, std::uint64_t at_once) {
+  FrameScan scan(rows.frame(), settings);
+  const auto add = [&](SampleBuffer& part) {
+    scan.add(part);
+    return true;
+  };
+  for_all_rows(rows, at_once, add, [&](double part) { meter.add_part(part); });
+  FrameFindings found = scan.findings();
+  if (settings.method == Method::cross_bilateral || (settings.method == Method::rpf && settings.drop_uninformative))
+    find_in_core(rows, settings, found);
+  return found;
+}
+
+}  // namespace
+
+RowFacts scan_rows(SampleRows& rows, Settings settings, const Control& control, std::uint64_t at_once) {
+  validate(settings);
+  settings.crop.reset();
+  ProgressMeter meter(control);
+  if (settings.method == Method::learned) return find_observed(rows, settings, meter, at_once);
+  return find_frame(rows, settings, meter, at_once);
+}
+
+void check_rows(const SampleRows& rows, int first, int end, std::uint32_t most_samples, const Settings& settings) {
+  const Window& window = rows.frame().data_window;
+  const std::uint64_t need = predict_memory(
+      {window.pixel_count(), samples_in(rows, first, end), most_samples, window.width}, rows.frame().layout, settings);
+  constexpr double megabyte = 1 << 20;
+  if (settings.max_memory > 0 && need > settings.max_memory)
+    throw Error(
+        ErrorKind::memory,
+        fmt::format("filtering rows {} to {} needs {:.0f} MB, the limit is {:.0f} MB; raise --max-memory, lower "
+                    "--threads or take fewer rows at once",
+                    window.y + first, window.y + end - 1, static_cast<double>(need) / megabyte,
+                    static_cast<double>(settings.max_memory) / megabyte));
+}
+
+}  // namespace rpf
