@@ -113,6 +113,9 @@ void open_parts(OpenFrame& frame) {
   if (frame.input.is_image())
     throw Error(ErrorKind::usage,
                 fmt::format("{}: \"{}\" is an image; only samples are read by rows", option, options.input));
+  if (filters_pixels(frame.settings.method))
+    throw Error(ErrorKind::usage, fmt::format("{}: method {} filters the whole frame at once; leave it out", option,
+                                              name_of(frame.settings.method)));
   if (!options.report.empty() || !options.time_budget.empty())
     throw Error(ErrorKind::usage, fmt::format("{}: {} needs the whole frame; leave one of them out", option,
                                               options.report.empty() ? "--time-budget" : "--report"));

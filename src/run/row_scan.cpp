@@ -7,6 +7,7 @@
 #include "frame/clean_frame.h"
 #include "frame/prepare.h"
 #include "rpf/error.h"
+#include "rpf/methods.h"
 #include "run/informative.h"
 #include "run/progress_meter.h"
 
@@ -91,6 +92,11 @@ FrameFindings find_frame(SampleRows& rows, const Settings& settings, ProgressMet
 
 RowFacts scan_rows(SampleRows& rows, Settings settings, const Control& control, std::uint64_t at_once) {
   validate(settings);
+  if (filters_pixels(settings.method))
+    throw Error(ErrorKind::usage,
+                fmt::format("method {} filters the whole frame at once, so rows of it cannot be "
+                            "filtered by themselves; filter the frame, with --crop if a part is enough",
+                            name_of(settings.method)));
   settings.crop.reset();
   ProgressMeter meter(control);
   if (settings.method == Method::learned) return find_observed(rows, settings, meter, at_once);
