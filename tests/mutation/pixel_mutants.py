@@ -1,0 +1,20 @@
+"""Mutants of the methods that filter pixels (algorithm.md, section 9); both backends run one text."""
+from mutants import Mutant
+
+PATCH, BANK, RISK, PLANES = "kernels/patch_steps.h", "kernels/bank_steps.h", "kernels/risk_steps.h", "kernels/plane_steps.h"
+QUANTITIES = "src/frame/pixel_planes.cpp"
+
+MUTANTS = [
+    Mutant("pixel_nlm_variance", PATCH, "variance_b < variance_a ? variance_b : variance_a", "variance_b",
+           "oracle nlm image", "patch distance: the other's variance, smaller or not"),
+    Mutant("pixel_nlm_cut", PATCH, "mean < least ? 0.0f : mean", "mean < 0.0f * least ? 0.0f : mean", "oracle nlm image", "patch weights: small ones count"),
+    Mutant("pixel_gather_own", PLANES, "(other[x + dx] - own[x])", "(other[x + dx] - 0.5f * own[x])", "oracle nlm image", "gathering: half of what p has"),
+    Mutant("pixel_box_edge", PLANES, "run.x1 < width - i ? run.x1 : width - i", "run.x1 < width - 1 - i ? run.x1 : width - 1 - i",
+           "oracle nlm_one_row image", "a box that stops before the last pixel"),
+    Mutant("pixel_halves_alike", QUANTITIES, "mean(pixel, plane.channel, samples > 1 ? 1 : 0, 2)", "mean(pixel, plane.channel, 0, 2)",
+           "oracle nlm image", "halves: the first one twice"),
+    Mutant("pixel_gem_bias", BANK, "trust * (ratio *", "trust * (0.5f * ratio *", "oracle gem image", "bias: that of the wider Gaussian alone"),
+    Mutant("pixel_gem_agreed", BANK, ">= 0.5f) ? 1.0f", ">= 0.0f) ? 1.0f", "oracle gem_varying image", "stops: each decides alone"),
+    Mutant("pixel_sbf_risk", RISK, "(2.0f * own_share - 1.0f)", "(own_share - 1.0f)", "oracle sbf image", "risk: half of the derivative"),
+    Mutant("pixel_sbf_least", RISK, "variance > least ? variance : least", "variance + least", "oracle sbf image", "features: the least variance is added"),
+]
