@@ -30,11 +30,11 @@ MUTANTS = [
     Mutant("cl_attempt", NEIGHBORHOOD, "uint attempt = 0; attempt < pass->attempts", "uint attempt = 1; attempt < pass->attempts",
            DOF + "neighbors", "draws: the first attempt is left out"),
     Mutant("cl_redraw", NEIGHBORHOOD, "attempt < pass->attempts && any_lane(failed)", "attempt + 1 < pass->attempts && any_lane(failed)",
-           "conformance redraws/1 neighbors", "draws: an attempt less"),
+           "conformance redraws/1 shift", "draws: an attempt less"),
     Mutant("cl_border", NEIGHBORHOOD, "to_x < 0 | to_x >= pass->width", "to_x < 0 | to_x > pass->width",
            DOF + "neighbors", "draws: a column behind the image"),
     Mutant("cl_rejection", NEIGHBORHOOD, "return !any_lane(rejected);", "return !rejected.s0;",
-           DOF + "neighbors", "rejection: by the first feature alone"),
+           DOF + "shift", "rejection: by the first feature alone"),
 
     # ---------------------------------------------------------------- 4. normalization
     Mutant("cl_mean", STATISTICS, "rpf_lanes_total(&sums.values) / count", "rpf_lanes_total(&sums.values) / (count + 1.0f)",
