@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "rpf/filter.h"
 #include "rpf/io.h"
@@ -41,5 +42,24 @@ std::string find_facts(SampleRows& rows, const Settings& settings, const Control
 /// so that only those rows are read that the crop needs; empty: they are found first. Throws as filter() does.
 Result filter_rows(SampleRows& rows, const Settings& settings, const std::string& facts = {},
                    const Control& control = {});
+
+/// What `rpf info` says of the values of a frame.
+struct RowSurvey {
+  std::vector<ChannelSurvey> channels;  ///< as of survey()
+  std::vector<InputNote> notes;         ///< as of check_conventions()
+};
+
+/// Reads every row once, some at a time. Throws Error(input).
+RowSurvey survey_rows(SampleRows& rows);
+
+/// What filter_rows() takes of a frame whose rows are read when they are needed, by a method that can do so.
+struct RowsMemory {
+  std::uint64_t bytes = 0;  ///< at the least
+  int rows_read = 0;        ///< at once, about
+  int rows_filtered = 0;    ///< at once: a band
+};
+
+/// Of Method::learned. Throws Error(usage) as filter() does.
+RowsMemory predict_rows_memory(const SampleRows& rows, std::uint32_t max_samples_per_pixel, const Settings& settings);
 
 }  // namespace rpf

@@ -75,6 +75,22 @@ void write_results(const FilterOptions& options, const Result& result) {
   if (!options.aov.empty()) write_features(options.aov, result.features);
 }
 
+/// Whether a frame that does not fit is read by rows.
+bool can_stream(const OpenFrame& frame) {
+  return frame.settings.method == Method::learned && frame.options.report.empty() && frame.options.time_budget.empty();
+}
+
+/// Of a frame that does not fit: what its rows take. Refuses where that is too much too.
+std::uint64_t check_streamed(const OpenFrame& frame, const SampleReadOptions& reading, bool tell) {
+  const auto rows = open_sample_rows(frame.options.input, reading);
+  const RowsMemory need = predict_rows_memory(*rows, frame.input.info.max_samples, frame.settings);
+  if (tell)
+    print("rows are read as they are needed, about {} at once: {:.0f} MB at least\n", need.rows_read,
+          static_cast<double>(need.bytes) / megabyte);
+  check_need(frame.input.info, "filtering, with rows read as they are needed,", need.bytes, frame.settings.max_memory);
+  return need.bytes;
+}
+
 /// The files that will be written, known before the work.
 std::vector<PlannedOutput> planned_outputs(const FilterOptions& options, const FilterInput& input,
                                            const Settings& settings) {
@@ -135,14 +151,19 @@ OpenFrame open_frame(const FilterOptions& options) {
   if (frame.input.is_image() && options.sigma_color == 0) frame.settings.sigma_color = image_sigma_color;
   check_features(options, info);
   open_parts(frame);
+  const bool tell = options.verbose || options.dry_run;
+  frame.reading.slots = needed_layout(info, frame.settings).slots;
+  frame.by_rows =
+      frame.by_rows || (can_stream(frame) && predicted_memory(info, frame.settings) > frame.settings.max_memory);
   if (!frame.by_rows)
-    frame.need = check_budget(frame.input, frame.settings, options.verbose || options.dry_run, !options.report.empty());
+    frame.need = check_budget(frame.input, frame.settings, tell, !options.report.empty());
+  else if (options.rows.empty() && options.facts.empty())
+    frame.need = check_streamed(frame, frame.reading, tell);
   if (frame.settings.crop) check_crop(*frame.settings.crop, info.data_window);
   check_outputs(planned_outputs(options, frame.input, frame.settings), {options.input});
   const SampleFileInfo stored = as_image(info, options.output);
   check_in_place(stored, options.output);
   if (!options.quiet) tell_dropped(stored);
-  frame.reading.slots = needed_layout(info, frame.settings).slots;
   return frame;
 }
 

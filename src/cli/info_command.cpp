@@ -9,6 +9,7 @@
 #include "cli/needs.h"
 #include "cli/print.h"
 #include "rpf/presets.h"
+#include "rpf/rows.h"
 
 namespace rpf::cli {
 namespace {
@@ -50,24 +51,32 @@ void print_channels(const SampleFileInfo& info, const std::vector<ChannelSurvey>
 }
 
 /// What contradicts the convention, and what no result will hold.
-void print_remarks(const SampleFileInfo& info, const SampleBuffer& samples) {
-  for (const InputNote& note : check_conventions(samples))
+void print_remarks(const SampleFileInfo& info, const std::vector<InputNote>& notes) {
+  for (const InputNote& note : notes)
     print("  note: {}: {} (first at pixel {},{})\n", note.what, note.count, note.x, note.y);
   if (!info.dropped_attributes.empty())
     print("  attributes of types that are not read: {}\n", fmt::format("{}", fmt::join(info.dropped_attributes, ", ")));
 }
 
 /// `kind`: preset or profile.
-void print_need(const SampleFileInfo& info, const std::string& kind, const std::string& name, std::uint64_t limit) {
+void print_need(const SampleFileInfo& info, const SampleRows& rows, const std::string& kind, const std::string& name,
+                std::uint64_t limit) {
   Settings settings = settings_of(parse_filter_options({"--" + kind, name}));  // backend and threads as in filtering
   settings.max_memory = limit;                                                 // what a network takes depends on it
-  print("  predicted peak memory, {} {}, {} threads: {:.0f} MB\n", name, kind, settings.threads,
-        static_cast<double>(predicted_memory(info, settings)) / megabyte);
+  const std::uint64_t need = predicted_memory(info, settings);
+  const bool fits = need <= limit;
+  print("  predicted peak memory, {} {}, {} threads: {:.0f} MB{}\n", name, kind, settings.threads,
+        static_cast<double>(need) / megabyte, fits ? "" : ", more than the limit");
+  if (fits || settings.method != Method::learned) return;
+  const RowsMemory by_rows = predict_rows_memory(rows, info.max_samples, settings);
+  if (by_rows.bytes <= limit)
+    print("    so about {} rows are read at once, as they are needed: {:.0f} MB at least\n", by_rows.rows_read,
+          static_cast<double>(by_rows.bytes) / megabyte);
 }
 
-void print_memory(const SampleFileInfo& info, std::uint64_t limit) {
-  for (const PresetInfo& preset : presets()) print_need(info, "preset", preset.name, limit);
-  for (const char* profile : {"thesis", "paper"}) print_need(info, "profile", profile, limit);
+void print_memory(const SampleFileInfo& info, const SampleRows& rows, std::uint64_t limit) {
+  for (const PresetInfo& preset : presets()) print_need(info, rows, "preset", preset.name, limit);
+  for (const char* profile : {"thesis", "paper"}) print_need(info, rows, "profile", profile, limit);
 }
 
 }  // namespace
@@ -86,11 +95,12 @@ Command add_info_command(CLI::App& app) {
   return [options] {
     const SampleReadOptions read_options = read_options_of(options->map, memory_limit(options->max_memory_mb));
     const SampleFileInfo info = inspect_samples(options->file, read_options);
-    const SampleBuffer samples = read_samples(options->file, read_options);
+    const auto rows = open_sample_rows(options->file, read_options);
+    const RowSurvey found = survey_rows(*rows);
     print_file(info);
-    print_channels(info, survey(samples));
-    print_remarks(info, samples);
-    print_memory(info, read_options.max_memory);
+    print_channels(info, found.channels);
+    print_remarks(info, found.notes);
+    print_memory(info, *rows, read_options.max_memory);
     return 0;
   };
 }

@@ -31,8 +31,8 @@ Comparison compare_estimates(const ConformanceCase& c, SampleBuffer samples, con
   const EstimatePlan& plan = observed.plan;
   CpuBackend reference(threads);
   OpenClBackend device({device_name, threads, 0});
-  reference.load_estimate(prepared.frame, prepared.colors, plan);
-  device.load_estimate(prepared.frame, prepared.colors, plan);
+  reference.load_estimate(prepared.frame, plan);
+  device.load_estimate(prepared.frame, plan);
 
   Comparison comparison;
   const Window& crop = prepared.facts.crop;

@@ -23,7 +23,7 @@ class CpuBackend : public Backend {
   const std::vector<float>& explained() const override { return explained_; }
   std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const override;
   PixelTrace trace(int pass, std::uint32_t pixel) override;
-  void load_estimate(const Frame& frame, std::vector<float> others, const EstimatePlan& plan) override;
+  void load_estimate(const Frame& frame, const EstimatePlan& plan) override;
   std::vector<float> estimate(const Window& region, const EstimateProgress& progress) override;
   std::vector<EstimateStage> trace_estimate(const Window& region) override;
   std::uint64_t estimate_bytes(const EstimatePlan& plan, const Window& window, std::uint64_t samples) const override;
@@ -52,7 +52,6 @@ class CpuBackend : public Backend {
   const Plan* plan_ = nullptr;
   const EstimatePlan* estimate_plan_ = nullptr;
   std::vector<float> colors_, next_colors_;  ///< c' and c'': [sample][carried]
-  std::vector<float> others_;                ///< of the learned estimator: [sample][carried - 3]
   std::vector<PixelStatistics> statistics_;  ///< [pixel]
   std::vector<float> explained_;             ///< [pixel of the tile][pairs + 1]
 };

@@ -12,10 +12,9 @@ constexpr double work_at_once = 3e8;
 
 }  // namespace
 
-void CpuBackend::load_estimate(const Frame& frame, std::vector<float> others, const EstimatePlan& plan) {
+void CpuBackend::load_estimate(const Frame& frame, const EstimatePlan& plan) {
   frame_ = &frame;
   estimate_plan_ = &plan;
-  others_ = std::move(others);
 }
 
 std::vector<float> CpuBackend::estimate_window(const Window& window, const EstimateProgress& progress,
@@ -37,7 +36,7 @@ std::vector<float> CpuBackend::estimate_window(const Window& window, const Estim
       progress(row_work * (end - first) / all);
     }
   };
-  return Estimate(*frame_, others_, *estimate_plan_, window, for_rows, stages).run();
+  return Estimate(*frame_, *estimate_plan_, window, for_rows, stages).run();
 }
 
 std::vector<float> CpuBackend::estimate(const Window& region, const EstimateProgress& progress) {

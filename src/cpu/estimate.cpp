@@ -25,10 +25,9 @@ int halved(int size) { return (size + 1) / 2; }
 
 }  // namespace
 
-Estimate::Estimate(const Frame& frame, const std::vector<float>& others, const EstimatePlan& plan, const Window& window,
-                   RowLoop for_rows, std::vector<EstimateStage>* stages)
+Estimate::Estimate(const Frame& frame, const EstimatePlan& plan, const Window& window, RowLoop for_rows,
+                   std::vector<EstimateStage>* stages)
     : frame_(frame),
-      others_(others),
       plan_(plan),
       network_(*plan.network),
       window_(window),
@@ -75,12 +74,19 @@ void Estimate::head(int x, int y, uint first, uint count, float* out) const {
   dense(network_.head(), last_.at(x, y), static_cast<int>(first), static_cast<int>(count), out);
 }
 
+void Estimate::for_rows_of_samples(double row_work, const std::function<void(int)>& row) {
+  for (int first = 0, end = 0; first < window_.height; first = end) {
+    end = frame_.bring(window_.y + first, window_.y + window_.height) - window_.y;
+    for_rows_(end - first, row_work, [&](int y) { row(first + y); });
+  }
+}
+
 Field Estimate::see_pixels() {
   const NetworkLayer& enter = network_.enter();
   Field entered(window_.width, window_.height, static_cast<std::size_t>(enter.outputs));
   Field seen(stages_ ? window_.width : 0, stages_ ? window_.height : 0, static_cast<std::size_t>(enter.inputs));
   const double samples = static_cast<double>(first_sample_.back()) / window_.height;
-  for_rows_(window_.height, samples * seeing(network_) + window_.width * products(enter), [&](int y) {
+  for_rows_of_samples(samples * seeing(network_) + window_.width * products(enter), [&](int y) {
     SampleNetwork network(frame_, plan_);
     std::vector<float> values(static_cast<std::size_t>(enter.inputs));
     float albedo[RPF_ALBEDO_SUMS];
@@ -137,9 +143,10 @@ void Estimate::sum_pixel(int x, int y, SampleNetwork& network) {
   head(x, y, 0, RPF_CONTEXT, context);
   for (std::uint32_t i = frame_.first_sample[pixel]; i < frame_.first_sample[pixel + 1]; ++i) {
     const SeenSample& seen = network.see(i);
-    const float share = frame_.weights.empty() ? 1.0F : frame_.weights[i] * plan_.weight_scale;
+    const float share = frame_.weights.empty() ? 1.0F : frame_.weight(i) * plan_.weight_scale;
     const float w = network.weight(context) * share;
-    const float *color = frame_.record(i), *other = others_.data() + i * (plan_.carried - 3);
+    const float *color = frame_.record(i),
+                *other = frame_.others.data() + (i - frame_.first_record) * (plan_.carried - 3);
     const auto add = [&](std::size_t sum, float value) {
       float& s = sums_.at(y, sum)[x];
       s = fma(w, value, s);
@@ -162,7 +169,7 @@ void Estimate::sum_samples() {
   sums_ = Rows(window_.width, window_.height, kernel::rpf_sums(static_cast<uint>(plan_.carried)));
   if (stages_) sample_weights_.resize(first_sample_.back());
   const double samples = static_cast<double>(first_sample_.back()) / window_.height;
-  for_rows_(window_.height, samples * weighing(network_), [&](int y) {
+  for_rows_of_samples(samples * weighing(network_), [&](int y) {
     SampleNetwork network(frame_, plan_);
     with_fma([&] {
       for (int x = 0; x < window_.width; ++x) sum_pixel(x, y, network);

@@ -19,10 +19,9 @@ using RowLoop = std::function<void(int rows, double row_work, const std::functio
 
 class Estimate {
  public:
-  /// `others`: [sample][carried - 3], what is carried beside the color. With `stages` every stage is kept there
-  /// (estimate_plan.h).
-  Estimate(const Frame& frame, const std::vector<float>& others, const EstimatePlan& plan, const Window& window,
-           RowLoop for_rows, std::vector<EstimateStage>* stages = nullptr);
+  /// With `stages` every stage is kept there (estimate_plan.h).
+  Estimate(const Frame& frame, const EstimatePlan& plan, const Window& window, RowLoop for_rows,
+           std::vector<EstimateStage>* stages = nullptr);
 
   /// [pixel of the window][carried]
   std::vector<float> run();
@@ -40,6 +39,8 @@ class Estimate {
   /// The head's outputs first .. first + count - 1 of a pixel.
   void head(int x, int y, kernel::uint first, kernel::uint count, float* out) const;
 
+  /// for_rows_ over all rows, of stages that read samples.
+  void for_rows_of_samples(double row_work, const std::function<void(int)>& row);
   Field see_pixels();
   Field convolved(const NetworkLayer& layer, const std::vector<Source>& sources, int width, int height);
   Field halved(const Field& in);
@@ -57,7 +58,6 @@ class Estimate {
   void keep_head();
 
   const Frame& frame_;
-  const std::vector<float>& others_;
   const EstimatePlan& plan_;
   const Network& network_;
   Window window_;

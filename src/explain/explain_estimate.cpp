@@ -36,7 +36,7 @@ class Estimated {
     const Window region = region_of_shares(plan_, x, y), window = window_around(plan_, region);
     ProgressMeter meter(control);
     get_ready_estimate(backend_, settings_, plan_, meter);
-    backend_->load_estimate(prepared_.frame, prepared_.colors, plan_);
+    backend_->load_estimate(prepared_.frame, plan_);
     const std::vector<EstimateStage> stages = backend_->trace_estimate(region);
     const PixelShares shares = pixel_shares(plan_, stages, window, counts(window), x, y);
     for (int row = region.y; row < region.y + region.height; ++row)

@@ -213,8 +213,8 @@ Columns find_columns(const SampleBuffer& samples, bool clamp_infinite) {
   return c;
 }
 
-std::size_t first_pixel(const SampleBuffer& rows, const Window& data_window) {
-  return static_cast<std::size_t>(rows.data_window.y - data_window.y) * static_cast<std::size_t>(data_window.width);
+std::size_t first_pixel(const Window& rows, const Window& data_window) {
+  return static_cast<std::size_t>(rows.y - data_window.y) * static_cast<std::size_t>(data_window.width);
 }
 
 Cleaning::Cleaning(const SampleBuffer& frame, const Columns& columns, bool clamp_negative)
@@ -227,7 +227,7 @@ Cleaning::Cleaning(const SampleBuffer& frame, const Columns& columns, bool clamp
 }
 
 void Cleaning::add(SampleBuffer& rows) {
-  const std::size_t first = first_pixel(rows, frame_.data_window);
+  const std::size_t first = first_pixel(rows.data_window, frame_.data_window);
   clean_rows(
       rows, first, columns_, clamp_negative_, findings_,
       [&](std::size_t place) { conventions_.add(rows, place, first + place); },
@@ -277,7 +277,7 @@ void fill_lost(SampleBuffer& rows, const Window& data_window, const Columns& col
     rows.values.clear();
     return;
   }
-  const std::size_t first = first_pixel(rows, data_window), end = first + rows.data_window.pixel_count();
+  const std::size_t first = first_pixel(rows.data_window, data_window), end = first + rows.data_window.pixel_count();
   const auto before = [](const LostPixel& lost, std::size_t pixel) { return lost.pixel < pixel; };
   for (auto lost = std::lower_bound(report.lost.begin(), report.lost.end(), first, before);
        lost != report.lost.end() && lost->pixel < end; ++lost)

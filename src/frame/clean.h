@@ -97,6 +97,6 @@ void clean_again(SampleBuffer& rows, const Columns& columns, bool clamp_negative
 void fill_lost(SampleBuffer& rows, const Window& data_window, const Columns& columns, const CleanReport& report);
 
 /// The number in the frame of the first pixel of some of its rows.
-std::size_t first_pixel(const SampleBuffer& rows, const Window& data_window);
+std::size_t first_pixel(const Window& rows, const Window& data_window);
 
 }  // namespace rpf

@@ -131,14 +131,13 @@ void take_rows(CleanFrame& clean, SampleBuffer rows, const CleanReport& report, 
   clean.samples = std::move(rows);
 }
 
-std::vector<std::uint32_t> first_sample_in_frame(CleanFrame& clean) {
-  std::vector<std::uint32_t> first = std::move(clean.samples.first_sample);
-  const std::size_t pixels = clean.frame.data_window.pixel_count();
-  if (first.size() == pixels + 1) return first;
-  std::vector<std::uint32_t> all(pixels + 1, first.back());
-  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first_pixel(clean.samples, clean.frame.data_window));
+std::vector<std::uint32_t> first_sample_in_frame(std::vector<std::uint32_t> of_rows, const Window& rows,
+                                                 const Window& data_window) {
+  if (rows == data_window) return of_rows;
+  std::vector<std::uint32_t> all(data_window.pixel_count() + 1, of_rows.back());
+  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first_pixel(rows, data_window));
   std::fill(all.begin(), begin, 0U);
-  std::copy(first.begin(), first.end(), begin);
+  std::copy(of_rows.begin(), of_rows.end(), begin);
   return all;
 }
 

@@ -40,8 +40,9 @@ void take_report(CleanFrame& clean, const CleanReport& report);
 /// Takes rows over that were cleaned, by Cleaning or clean_again(): all of the frame, or some.
 void take_rows(CleanFrame& clean, SampleBuffer rows, const CleanReport& report, Method method);
 
-/// first_sample of the frame, from that of the rows in it; the others have no samples.
-std::vector<std::uint32_t> first_sample_in_frame(CleanFrame& clean);
+/// first_sample of the frame, from that of some rows; the others have no samples.
+std::vector<std::uint32_t> first_sample_in_frame(std::vector<std::uint32_t> of_rows, const Window& rows,
+                                                 const Window& data_window);
 
 /// "lens.U" of the slot "random.lens.U".
 std::string short_name(const std::string& slot);

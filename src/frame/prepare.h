@@ -18,7 +18,7 @@ struct FrameFindings;
 struct PreparedFrame {
   Frame frame;
   FrameFacts facts;
-  /// [sample][carried]: c' before the first pass. Of the learned estimator only what is carried beside the color.
+  /// [sample][carried]: c' before the first pass. Not of the learned estimator: Frame::others.
   std::vector<float> colors;
   std::vector<std::string> carried_names;  ///< R, G, B, [A], [features as in the file]
   std::vector<std::string> dropped;        ///< selected channels that are constant over the frame

@@ -47,7 +47,7 @@ std::array<double, 3> mean_color(const Frame& frame, std::size_t pixel) {
   std::array<double, 3> sum{}, plain{};
   double total = 0;
   for (std::uint32_t i = frame.first_sample[pixel]; i < frame.first_sample[pixel + 1]; ++i) {
-    const double weight = frame.weights.empty() ? 1 : frame.weights[i];
+    const double weight = frame.weights.empty() ? 1 : frame.weight(i);
     for (std::size_t c = 0; c < 3; ++c) {
       sum.at(c) += weight * frame.record(i)[c];
       plain.at(c) += frame.record(i)[c];

@@ -83,7 +83,8 @@ Observed observe(SampleBuffer samples, const Settings& settings, std::shared_ptr
   scan.look_again(samples);
   const ObservedFindings found = scan.findings();
   Observed observed = observe_frame(frame, found, settings, std::move(network));
-  observe_rows(std::move(samples), frame, found, settings, observed.plan, observed.prepared);
+  observed.prepared.frame.first_sample =
+      observe_rows(std::move(samples), frame, found, settings, observed.plan, observed.prepared);
   return observed;
 }
 
@@ -108,17 +109,17 @@ Observed observe_frame(const SampleBuffer& whole, const ObservedFindings& found,
   return result;
 }
 
-void observe_rows(SampleBuffer rows, const SampleBuffer& whole, const ObservedFindings& found, const Settings& settings,
-                  const EstimatePlan& plan, PreparedFrame& prepared) {
+std::vector<std::uint32_t> observe_rows(SampleBuffer rows, const SampleBuffer& whole, const ObservedFindings& found,
+                                        const Settings& settings, const EstimatePlan& plan, PreparedFrame& prepared) {
   CleanFrame clean = begin_frame(whole, settings);
   take_report(clean, found.cleaned);
   take_rows(clean, std::move(rows), found.cleaned, settings.method);
   const std::vector<int> columns = columns_of(plan);
   Frame& frame = prepared.frame;
-  prepared.colors = carried_values(clean, false);
+  frame.others = carried_values(clean, false);
   frame.weights = std::move(clean.prepared.frame.weights);
   frame.records = repack(clean.samples, frame.variables, RecordMaker(clean, columns, found.positions));
-  frame.first_sample = first_sample_in_frame(clean);
+  return std::move(clean.samples.first_sample);
 }
 
 }  // namespace rpf

@@ -22,9 +22,9 @@ Observed observe(SampleBuffer samples, const Settings& settings, std::shared_ptr
 Observed observe_frame(const SampleBuffer& frame, const ObservedFindings& found, const Settings& settings,
                        std::shared_ptr<const Network> network);
 
-/// Fills in what is known of some rows, or all, that were cleaned: records, weights, what is carried beside the color,
-/// and first_sample, where the other rows are without samples.
-void observe_rows(SampleBuffer rows, const SampleBuffer& frame, const ObservedFindings& found, const Settings& settings,
-                  const EstimatePlan& plan, PreparedFrame& prepared);
+/// Fills in what is known of some rows, or all, that were cleaned: records, weights, what is carried beside the color.
+/// Returns first_sample of these rows.
+std::vector<std::uint32_t> observe_rows(SampleBuffer rows, const SampleBuffer& frame, const ObservedFindings& found,
+                                        const Settings& settings, const EstimatePlan& plan, PreparedFrame& prepared);
 
 }  // namespace rpf

@@ -60,7 +60,7 @@ void ObserveScan::add(SampleBuffer& rows) {
 }
 
 void ObserveScan::include_luminances(const SampleBuffer& rows) {
-  const std::size_t first = first_pixel(rows, clean_.frame.data_window);
+  const std::size_t first = first_pixel(rows.data_window, clean_.frame.data_window);
   const auto& color = clean_.columns.color;
   for (std::size_t place = 0; place + 1 < rows.first_sample.size(); ++place) {
     const std::uint32_t begin = rows.first_sample[place], end = rows.first_sample[place + 1];
@@ -114,7 +114,7 @@ float ObserveScan::exposure() const {
   return power_of_two(-2 - std::ilogb(mean * radiance_scale(found_.cleaned.brightest)));
 }
 
-void ObserveScan::finish() {
+bool ObserveScan::finish() {
   found_.cleaned = cleaning_.report();
   if (!found_.cleaned.has_color) {
     found_.has_hit = false;
@@ -132,6 +132,7 @@ void ObserveScan::finish() {
   found_.positions = facts_of(positions_);
   luminances_ = {};
   for (auto& component : positions_) component = {};
+  return found_.cleaned.has_color;
 }
 
 ObservedFindings ObserveScan::findings() {

@@ -32,8 +32,9 @@ class ObserveScan {
 
   /// Cleans the next rows and looks at them.
   void add(SampleBuffer& rows);
-  /// After all rows: then some inputs can be told that depend on where the others lie.
-  void finish();
+  /// After all rows: then some inputs can be told that depend on where the others lie. Returns whether any sample is
+  /// left.
+  bool finish();
   /// Whether there are inputs of which it is not known yet whether they vary. Then cleaned rows are to be looked at
   /// again, from the first on, until there are none or no rows are left; mostly the first rows are enough.
   bool must_look_again() const { return !relative_.empty(); }

@@ -39,7 +39,7 @@ class OpenClBackend : public Backend {
   std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const override;
   PixelTrace trace(int pass, std::uint32_t pixel) override;
   void get_ready_estimate(const EstimatePlan& plan, const std::function<void()>& check) override;
-  void load_estimate(const Frame& frame, std::vector<float> others, const EstimatePlan& plan) override;
+  void load_estimate(const Frame& frame, const EstimatePlan& plan) override;
   std::vector<float> estimate(const Window& region, const EstimateProgress& progress) override;
   std::vector<EstimateStage> trace_estimate(const Window& region) override;
   std::uint64_t estimate_bytes(const EstimatePlan& plan, const Window& window, std::uint64_t samples) const override;
@@ -104,7 +104,6 @@ class OpenClBackend : public Backend {
   std::optional<Blocking> blocking_;
   std::unique_ptr<NetworkProgram> network_;
   std::vector<float> colors_, next_colors_;  ///< c' and c'': [sample][carried]
-  std::vector<float> others_;                ///< of the learned estimator: [sample][carried - 3]
   std::vector<PixelStatistics> statistics_;  ///< [pixel]
   Window tile_;                              ///< of the latest run()
   std::vector<float> explained_;             ///< [pixel of the tile][pairs + 1]

@@ -11,19 +11,18 @@ void OpenClBackend::get_ready_estimate(const EstimatePlan& plan, const std::func
   ready_for_ = &plan;
 }
 
-void OpenClBackend::load_estimate(const Frame& frame, std::vector<float> others, const EstimatePlan& plan) {
+void OpenClBackend::load_estimate(const Frame& frame, const EstimatePlan& plan) {
   if (ready_for_ != &plan) get_ready_estimate(plan, {});
   ready_for_ = nullptr;
   frame_ = &frame;
   estimate_plan_ = &plan;
-  others_ = std::move(others);
 }
 
 std::vector<float> OpenClBackend::estimate(const Window& region, const EstimateProgress& progress) {
   const Window window = window_around(*estimate_plan_, region);
   return on_device("estimating", [&] {
     const int first = region.y - window.y;
-    EstimateRun run(session_, *network_, {*frame_, others_, *estimate_plan_, window}, first, first + region.height,
+    EstimateRun run(session_, *network_, {*frame_, *estimate_plan_, window}, first, first + region.height,
                     items_, false);
     return run.run(region.x - window.x, region.width, progress);
   });
@@ -32,7 +31,7 @@ std::vector<float> OpenClBackend::estimate(const Window& region, const EstimateP
 std::vector<EstimateStage> OpenClBackend::trace_estimate(const Window& region) {
   const Window window = window_around(*estimate_plan_, region);
   return on_device("tracing the estimator", [&] {
-    return EstimateRun(session_, *network_, {*frame_, others_, *estimate_plan_, window}, 0, window.height, items_, true)
+    return EstimateRun(session_, *network_, {*frame_, *estimate_plan_, window}, 0, window.height, items_, true)
         .trace();
   });
 }

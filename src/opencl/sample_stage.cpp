@@ -97,21 +97,30 @@ SampleStage::Chunk SampleStage::chunk(int first, int end) const {
        static_cast<std::uint32_t>(program_.feature_stride()), static_cast<int>(plan.carried)},
       count,
       shared(frame.record(from), count * frame.variables),
-      others == 0 ? cl::Buffer() : shared(job_.others.data() + from * others, count * others),
-      frame.weights.empty() ? cl::Buffer() : shared(frame.weights.data() + from, count),
+      others == 0 ? cl::Buffer() : shared(frame.others.data() + (from - frame.first_record) * others, count * others),
+      frame.weights.empty() ? cl::Buffer() : shared(frame.weights.data() + (from - frame.first_record), count),
       shared(frame.first_sample.data() + pixel(row, 0), pixel(end_row, 0) - pixel(row, 0) + 1)};
 }
 
 void SampleStage::for_chunks(int first, int end, const Progress& progress,
                              const std::function<void(const Chunk&)>& body) {
-  const int pixels = (end - first) * job_.window.width, last = end * job_.window.width;
-  for (int p = first * job_.window.width; p < last;) {
-    const Chunk chunk = this->chunk(p, end_of_chunk(p, last));
-    reserve(chunk.samples);
-    body(chunk);
-    progress(static_cast<double>(chunk.launch.end - p) / pixels);
-    p = chunk.launch.end;
+  const int width = job_.window.width, pixels = (end - first) * width;
+  for (int row = first, there = first; row < end; row = there) {
+    there = bring(row, end);
+    for (int p = row * width; p < there * width;) {
+      const Chunk chunk = this->chunk(p, end_of_chunk(p, there * width));
+      reserve(chunk.samples);
+      body(chunk);
+      progress(static_cast<double>(chunk.launch.end - p) / pixels);
+      p = chunk.launch.end;
+    }
   }
+}
+
+int SampleStage::bring(int first, int end) {
+  if (job_.frame.supply == nullptr) return end;
+  session_.finish();  // what was launched reads rows that may be gone then
+  return job_.frame.bring(job_.window.y + first, job_.window.y + end) - job_.window.y;
 }
 
 void SampleStage::reserve(std::size_t samples) {

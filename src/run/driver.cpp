@@ -14,6 +14,7 @@
 #include "run/memory.h"
 #include "run/progress_meter.h"
 #include "run/provenance.h"
+#include "run/streamed_frame.h"
 #include "run/threads.h"
 #include "run/tiles.h"
 
@@ -99,13 +100,29 @@ class Run {
     clean_again(rows, find_columns(frame, settings.clamp_infinite), settings.clamp_negative);
     if (const auto* observed = std::get_if<ObservedFindings>(&facts)) {
       take(observe_frame(frame, *observed, settings, find_network(settings.model)));
-      observe_rows(std::move(rows), frame, *observed, settings, estimate_plan_, prepared_);
+      const Window window = rows.data_window;
+      prepared_.frame.first_sample =
+          first_sample_in_frame(observe_rows(std::move(rows), frame, *observed, settings, estimate_plan_, prepared_),
+                                window, frame.data_window);
       return;
     }
     const auto& found = std::get<FrameFindings>(facts);
     prepared_ = prepare_rows(std::move(rows), frame, found, settings);
     drop_channels(prepared_, found.uninformative);
     plan_ = make_plan(prepared_.facts, settings);
+  }
+
+  /// The learned estimator on rows that are read when they are needed. `first_sample`: of the frame, after cleaning.
+  Run(SampleRows& rows, std::vector<std::uint32_t> first_sample, const ObservedFindings& found,
+      const Settings& settings, const Control& control, std::uint64_t at_once)
+      : Run(settings, control, rows.frame()) {
+    raw_ = streamed_size(rows, found.cleaned.most_samples);
+    backend_ = make_backend(settings);
+    take(observe_frame(rows.frame(), found, settings, find_network(settings.model)));
+    prepared_.frame.first_sample = std::move(first_sample);
+    const std::uint64_t need = bands().bytes;
+    const std::uint64_t left = settings.max_memory > need ? settings.max_memory - need : 0;
+    stream_ = std::make_unique<StreamedFrame>(rows, found, settings, estimate_plan_, prepared_, left / 4 * 3, at_once);
   }
 
   Result finish(const PassObserver& before_pass) {
@@ -115,16 +132,21 @@ class Run {
 
  private:
   /// What does not depend on how samples come.
-  Run(const SampleBuffer& samples, const SampleBuffer& frame, const Settings& settings, const Control& control)
+  Run(const Settings& settings, const Control& control, const SampleBuffer& frame)
       : settings_(settings), control_(control), threads_(thread_count(settings)) {
-    samples.validate();
     validate(settings);
     geometry_.data_window = settings.crop.value_or(frame.data_window);
     geometry_.display_window = frame.display_window;
     geometry_.metadata = frame.metadata;
+  }
+  Run(const SampleBuffer& samples, const SampleBuffer& frame, const Settings& settings, const Control& control)
+      : Run(settings, control, frame) {
+    samples.validate();
     raw_ = {frame_size(samples), samples.layout, room_of(samples)};
     raw_.size.pixels = frame.data_window.pixel_count();
   }
+
+  EstimateBands bands() const { return estimate_bands(raw_.size, raw_.layout, raw_.room, settings_, *backend_); }
 
   void take(Observed observed) {
     prepared_ = std::move(observed.prepared);
@@ -156,10 +178,9 @@ class Run {
   Result estimate() {
     ProgressMeter meter(control_);
     const FrameFacts& facts = prepared_.facts;
-    const double plain_energy = energy_of_means(prepared_.frame, facts.crop);
     get_ready_estimate(backend_, settings_, estimate_plan_, meter);
-    const int band_rows = estimate_bands(raw_.size, raw_.layout, raw_.room, settings_, *backend_).rows;
-    backend_->load_estimate(prepared_.frame, std::move(prepared_.colors), estimate_plan_);
+    const int band_rows = bands().rows;
+    backend_->load_estimate(prepared_.frame, estimate_plan_);
     Pixels pixels(prepared_.frame.first_sample.size() * facts.carried, 0.0F);
     const Window& crop = facts.crop;
     for (int y = crop.y; y < crop.y + crop.height; y += band_rows) {
@@ -170,7 +191,7 @@ class Run {
     Result result;
     result.report.model = estimate_plan_.network->name;
     result.report.model_hash = estimate_plan_.network->hash;
-    describe_at_once(result, pixels, plain_energy, meter);
+    describe_at_once(result, pixels, stream_ ? stream_->plain_energy() : energy_of_means(prepared_.frame, crop), meter);
     return result;
   }
 
@@ -238,23 +259,17 @@ class Run {
       result.features = image_of(pixels, prepared_, geometry_, colors, prepared_.carried_names.size());
   }
 
-  /// What was read, before it was prepared.
-  struct Raw {
-    FrameSize size;
-    SampleLayout layout;
-    std::uint64_t room = 0;  ///< columns
-  };
-
   const Settings& settings_;
   const Control& control_;
   int threads_;
-  Raw raw_;
+  RawSize raw_;
   Image geometry_;  ///< windows and metadata of the result
   PreparedFrame prepared_;
   Plan plan_;
   EstimatePlan estimate_plan_;
   PixelPlan pixel_plan_;
-  std::unique_ptr<Backend> backend_;  ///< last: it refers to frame and plan
+  std::unique_ptr<StreamedFrame> stream_;  ///< where samples are read when they are needed
+  std::unique_ptr<Backend> backend_;       ///< last: it refers to frame and plan
 };
 
 }  // namespace
@@ -299,6 +314,11 @@ Result run_filter(SampleBuffer samples, const Settings& settings, const Control&
 Result run_rows(SampleBuffer rows, const SampleBuffer& frame, const RowFacts& facts, const Settings& settings,
                 const Control& control) {
   return Run(std::move(rows), frame, facts, settings, control).finish({});
+}
+
+Result run_streamed(SampleRows& rows, std::vector<std::uint32_t> first_sample, const ObservedFindings& found,
+                    const Settings& settings, const Control& control, std::uint64_t at_once) {
+  return Run(rows, std::move(first_sample), found, settings, control, at_once).finish({});
 }
 
 Result filter(SampleBuffer samples, const Settings& settings, const Control& control) {

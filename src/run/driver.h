@@ -5,7 +5,9 @@
 
 #include "frame/prepare.h"
 #include "rpf/filter.h"
+#include "rpf/rows.h"
 #include "run/row_facts.h"
+#include "run/row_scan.h"
 #include "seam/backend.h"
 
 namespace rpf {
@@ -21,6 +23,11 @@ Result run_filter(SampleBuffer samples, const Settings& settings, const Control&
 /// it; `frame` is without samples.
 Result run_rows(SampleBuffer rows, const SampleBuffer& frame, const RowFacts& facts, const Settings& settings,
                 const Control& control);
+
+/// The learned estimator on rows that are read when they are needed, in as little memory as predict_rows_memory() says.
+/// `first_sample`: of the frame after cleaning, as far as rows are needed.
+Result run_streamed(SampleRows& rows, std::vector<std::uint32_t> first_sample, const ObservedFindings& found,
+                    const Settings& settings, const Control& control, std::uint64_t at_once = bytes_at_once);
 
 /// What a report says beside the passes: backend, modeled channels, notes about the input.
 void describe_input(const Backend& backend, const PreparedFrame& prepared, Report& report);

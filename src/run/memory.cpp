@@ -12,6 +12,7 @@
 #include "rpf/methods.h"
 #include "run/backends.h"
 #include "run/estimate_bands.h"
+#include "run/streamed_frame.h"
 #include "run/threads.h"
 #include "seam/backend.h"
 
@@ -80,6 +81,13 @@ std::uint32_t most_samples(const std::vector<std::uint32_t>& first_sample) {
 FrameSize frame_size(const SampleBuffer& samples) {
   return {samples.data_window.pixel_count(), samples.sample_count(), most_samples(samples.first_sample),
           samples.data_window.width};
+}
+
+RawSize streamed_size(const SampleRows& rows, std::uint32_t most_samples) {
+  const SampleBuffer& frame = rows.frame();
+  const std::uint64_t room = frame.layout.size() + spare_columns;
+  const std::uint64_t samples = StreamedFrame::least_bytes(rows) / (room * sizeof(float));
+  return {{frame.data_window.pixel_count(), samples, most_samples, frame.data_window.width}, frame.layout, room};
 }
 
 std::uint64_t room_of(const SampleBuffer& samples) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "rpf/filter.h"
+#include "rpf/rows.h"
 #include "rpf/samples.h"
 #include "rpf/settings.h"
 
@@ -14,6 +15,16 @@ std::uint64_t room_of(const SampleBuffer& samples);
 
 /// Values a sample that are averaged: color, alpha, and the features where they are wanted.
 std::size_t carried_count(const SampleLayout& layout, const Settings& settings);
+
+/// What was read, before it was prepared.
+struct RawSize {
+  FrameSize size;
+  SampleLayout layout;
+  std::uint64_t room = 0;  ///< columns
+};
+
+/// Of a frame whose rows are read when they are needed: the samples are those that are in memory at least.
+RawSize streamed_size(const SampleRows& rows, std::uint32_t most_samples);
 
 /// Throws Error(memory) with the need and the limit where the run, with `more` bytes for what else the
 /// caller does, would exceed Settings::max_memory.

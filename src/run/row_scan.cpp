@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "frame/clean_frame.h"
@@ -13,17 +14,6 @@
 
 namespace rpf {
 namespace {
-
-/// The end of the rows from `first` on, at least one, that are read at once.
-int end_at_once(const SampleRows& rows, int first, std::uint64_t at_once) {
-  const std::uint64_t sample = rows.frame().layout.size() * sizeof(float);
-  const int height = rows.frame().data_window.height;
-  std::uint64_t bytes = 0;
-  int end = first;
-  do bytes += rows.row_samples(end++) * sample;
-  while (end < height && bytes + rows.row_samples(end) * sample <= at_once);
-  return end;
-}
 
 /// Calls use(rows) for all rows of a frame in turn, as long as it returns true; `tell` hears which part was done.
 template <class Use, class Tell>
@@ -44,15 +34,25 @@ std::uint64_t samples_in(const SampleRows& rows, int first, int end) {
   return samples;
 }
 
-ObservedFindings find_observed(SampleRows& rows, const Settings& settings, ProgressMeter& meter,
-                               std::uint64_t at_once) {
+/// Adds the samples of every pixel of cleaned rows to the sums so far.
+void count(const SampleBuffer& part, std::vector<std::uint32_t>& first_sample) {
+  const std::uint32_t before = first_sample.back();
+  for (std::size_t pixel = 1; pixel < part.first_sample.size(); ++pixel)
+    first_sample.push_back(before + part.first_sample[pixel]);
+}
+
+ObservedFindings find_observed(SampleRows& rows, const Settings& settings, ProgressMeter& meter, std::uint64_t at_once,
+                               std::vector<std::uint32_t>& first_sample) {
   ObserveScan scan(rows.frame(), settings);
+  first_sample = {0};
+  first_sample.reserve(rows.frame().data_window.pixel_count() + 1);
   const auto add = [&](SampleBuffer& part) {
     scan.add(part);
+    count(part, first_sample);
     return true;
   };
   for_all_rows(rows, at_once, add, [&](double part) { meter.add_part(part); });
-  scan.finish();
+  if (!scan.finish()) std::fill(first_sample.begin(), first_sample.end(), 0U);
   const Columns columns = find_columns(rows.frame(), settings.clamp_infinite);
   const auto look_again = [&](SampleBuffer& part) {
     clean_again(part, columns, settings.clamp_negative);
@@ -90,7 +90,19 @@ FrameFindings find_frame(SampleRows& rows, const Settings& settings, ProgressMet
 
 }  // namespace
 
-RowFacts scan_rows(SampleRows& rows, Settings settings, const Control& control, std::uint64_t at_once) {
+std::uint64_t row_bytes(const SampleRows& rows, int row) {
+  return rows.row_samples(row) * (rows.frame().layout.size() + spare_columns) * sizeof(float);
+}
+
+int end_at_once(const SampleRows& rows, int first, std::uint64_t at_once) {
+  const int height = rows.frame().data_window.height;
+  std::uint64_t bytes = row_bytes(rows, first);
+  int end = first + 1;
+  while (end < height && bytes + row_bytes(rows, end) <= at_once) bytes += row_bytes(rows, end++);
+  return end;
+}
+
+ScannedRows scan_rows(SampleRows& rows, Settings settings, const Control& control, std::uint64_t at_once) {
   validate(settings);
   if (filters_pixels(settings.method))
     throw Error(ErrorKind::usage,
@@ -99,14 +111,40 @@ RowFacts scan_rows(SampleRows& rows, Settings settings, const Control& control, 
                             name_of(settings.method)));
   settings.crop.reset();
   ProgressMeter meter(control);
-  if (settings.method == Method::learned) return find_observed(rows, settings, meter, at_once);
-  return find_frame(rows, settings, meter, at_once);
+  ScannedRows scanned;
+  if (settings.method == Method::learned)
+    scanned.facts = find_observed(rows, settings, meter, at_once, scanned.first_sample);
+  else
+    scanned.facts = find_frame(rows, settings, meter, at_once);
+  return scanned;
+}
+
+std::vector<std::uint32_t> count_rows(SampleRows& rows, int first, int end, const CleanReport& cleaned,
+                                      const Settings& settings) {
+  const Columns columns = find_columns(rows.frame(), settings.clamp_infinite);
+  std::vector<std::uint32_t> first_sample = {0};
+  for (int row = first, next = first; row < end; row = next) {
+    next = std::min(end_at_once(rows, row, bytes_at_once), end);
+    SampleBuffer part = rows.read(row, next);
+    clean_again(part, columns, settings.clamp_negative);
+    count(part, first_sample);
+  }
+  if (!cleaned.has_color) std::fill(first_sample.begin(), first_sample.end(), 0U);
+  const Window& window = rows.frame().data_window;
+  return first_sample_in_frame(std::move(first_sample), {window.x, window.y + first, window.width, end - first},
+                               window);
+}
+
+std::uint64_t rows_need(const SampleRows& rows, int first, int end, std::uint32_t most_samples,
+                        const Settings& settings) {
+  const Window& window = rows.frame().data_window;
+  return predict_memory({window.pixel_count(), samples_in(rows, first, end), most_samples, window.width},
+                        rows.frame().layout, settings);
 }
 
 void check_rows(const SampleRows& rows, int first, int end, std::uint32_t most_samples, const Settings& settings) {
   const Window& window = rows.frame().data_window;
-  const std::uint64_t need = predict_memory(
-      {window.pixel_count(), samples_in(rows, first, end), most_samples, window.width}, rows.frame().layout, settings);
+  const std::uint64_t need = rows_need(rows, first, end, most_samples, settings);
   constexpr double megabyte = 1 << 20;
   if (settings.max_memory > 0 && need > settings.max_memory)
     throw Error(

@@ -1,14 +1,20 @@
 // Frames that are read by rows: what the whole tells first, then the rows that a crop needs.
 #include "rpf/rows.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "learned/estimate_plan.h"
 #include "learned/network_file.h"
 #include "plan/box.h"
+#include "rpf/error.h"
 #include "rpf/outputs.h"
+#include "run/backends.h"
 #include "run/driver.h"
+#include "run/estimate_bands.h"
+#include "run/memory.h"
 #include "run/row_facts.h"
 #include "run/row_scan.h"
 
@@ -31,10 +37,22 @@ std::pair<int, int> rows_around(const Window& crop, const SampleBuffer& frame, c
   return {std::max(y - reach, 0), std::min(y + crop.height + reach, height)};
 }
 
+/// Refuses what is too much even so.
+void check_streamed(const SampleRows& rows, std::uint32_t most_samples, const Settings& settings) {
+  constexpr double megabyte = 1 << 20;
+  const std::uint64_t need = predict_rows_memory(rows, most_samples, settings).bytes;
+  if (need > settings.max_memory)
+    throw Error(
+        ErrorKind::memory,
+        fmt::format("filtering needs {:.0f} MB even where rows are read as they are needed, the limit is {:.0f} "
+                    "MB; raise --max-memory, lower --threads or filter a part with --rows",
+                    static_cast<double>(need) / megabyte, static_cast<double>(settings.max_memory) / megabyte));
+}
+
 }  // namespace
 
 std::string find_facts(SampleRows& rows, const Settings& settings, const Control& control) {
-  return text_of(scan_rows(rows, settings, control));
+  return text_of(scan_rows(rows, settings, control).facts);
 }
 
 Result filter_rows(SampleRows& rows, const Settings& settings, const std::string& facts, const Control& control) {
@@ -42,11 +60,29 @@ Result filter_rows(SampleRows& rows, const Settings& settings, const std::string
   const SampleBuffer& frame = rows.frame();
   const Window crop = settings.crop.value_or(frame.data_window);
   check_crop(crop, frame.data_window);
-  const RowFacts found = facts.empty() ? scan_rows(rows, settings, control) : facts_of(facts, settings.method);
+  ScannedRows scanned;
+  if (facts.empty())
+    scanned = scan_rows(rows, settings, control);
+  else
+    scanned.facts = facts_of(facts, settings.method);
   const auto [first, end] = rows_around(crop, frame, settings);
-  const CleanReport& cleaned = std::visit([](const auto& f) -> const CleanReport& { return f.cleaned; }, found);
-  check_rows(rows, first, end, cleaned.most_samples, settings);
-  return run_rows(rows.read(first, end), frame, found, settings, control);
+  const CleanReport& cleaned = std::visit([](const auto& f) -> const CleanReport& { return f.cleaned; }, scanned.facts);
+  const auto* observed = std::get_if<ObservedFindings>(&scanned.facts);
+  const std::uint64_t need = rows_need(rows, first, end, cleaned.most_samples, settings);
+  if (observed == nullptr || settings.max_memory == 0 || need <= settings.max_memory) {
+    check_rows(rows, first, end, cleaned.most_samples, settings);
+    scanned.first_sample = {};
+    return run_rows(rows.read(first, end), frame, scanned.facts, settings, control);
+  }
+  check_streamed(rows, cleaned.most_samples, settings);
+  if (scanned.first_sample.empty()) scanned.first_sample = count_rows(rows, first, end, cleaned, settings);
+  return run_streamed(rows, std::move(scanned.first_sample), *observed, settings, control);
+}
+
+RowsMemory predict_rows_memory(const SampleRows& rows, std::uint32_t max_samples_per_pixel, const Settings& settings) {
+  const RawSize raw = streamed_size(rows, max_samples_per_pixel);
+  const EstimateBands bands = estimate_bands(raw.size, raw.layout, raw.room, settings, *make_backend(settings));
+  return {bands.bytes, end_at_once(rows, 0), bands.rows};
 }
 
 }  // namespace rpf

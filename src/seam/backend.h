@@ -57,9 +57,9 @@ class Backend {
 
   /// get_ready() for a plan that will be loaded.
   virtual void get_ready_estimate(const EstimatePlan& /*plan*/, const std::function<void()>& /*check*/) {}
-  /// Called once, before all but that. Frame and plan outlive the backend; `others`: [sample][carried - 3], what
-  /// is carried beside the color, which records begin with.
-  virtual void load_estimate(const Frame& frame, std::vector<float> others, const EstimatePlan& plan) = 0;
+  /// Called once, before all but that. Frame and plan outlive the backend, which calls Frame::bring() before it reads
+  /// samples.
+  virtual void load_estimate(const Frame& frame, const EstimatePlan& plan) = 0;
   /// The result of a region (frame coordinates): [pixel of the region, row by row][carried], scaled radiance.
   virtual std::vector<float> estimate(const Window& region, const EstimateProgress& progress) = 0;
   /// All stages of the same.

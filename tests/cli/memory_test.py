@@ -78,7 +78,6 @@ class Memory(unittest.TestCase):
                 "convert": ["convert", self.samples, "-o", output],
                 "merge": ["merge", self.samples, other, "-o", output],
                 "density": ["density", self.samples, "-o", output],
-                "info": ["info", self.samples],
                 "report": ["report", self.samples, self.samples.with_name("mean.exr"), self.samples.with_name("mean.exr"), "-o", self.folder / "page.html", "-q"],
                 "explain": ["explain", self.samples, "-o", self.folder / "explained", "--box", "3", "-q"]}
 

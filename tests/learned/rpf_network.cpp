@@ -50,7 +50,7 @@ int write_stages(const std::vector<std::string>& arguments) {
   const rpf::PreparedFrame& prepared = observed.prepared;
   const rpf::EstimatePlan& plan = observed.plan;
   const std::unique_ptr<rpf::Backend> backend = rpf::make_backend(settings);
-  backend->load_estimate(prepared.frame, prepared.colors, plan);
+  backend->load_estimate(prepared.frame, plan);
   Json all = {{"width", plan.width},
               {"height", plan.height},
               {"exposure", plan.exposure},

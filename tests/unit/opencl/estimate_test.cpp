@@ -107,7 +107,7 @@ class DeviceEstimate {
   DeviceEstimate(const OpenClOptions& options, const std::vector<int>& channels)
       : observed_(observe(test::every_input({37, 29, 0, 1}), settings(), random_network(3, 12, channels, 5))),
         device_(options) {
-    device_.load_estimate(observed_.prepared.frame, observed_.prepared.colors, observed_.plan);
+    device_.load_estimate(observed_.prepared.frame, observed_.plan);
   }
 
   std::vector<float> run(const EstimateProgress& progress) {

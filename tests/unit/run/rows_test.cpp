@@ -6,8 +6,10 @@
 #include <functional>
 #include <limits>
 
+#include "rpf/devices.h"
 #include "rpf/methods.h"
 #include "rpf/rows.h"
+#include "run/driver.h"
 #include "run/row_scan.h"
 #include "test_frames.h"
 
@@ -138,7 +140,8 @@ TEST_P(Rows, FactsAreThoseOfTheWhole) {
   const Settings settings = settings_of(GetParam());
   for (const Frame& frame : frames) {
     BufferRows rows(frame_of(frame)), whole(frame_of(frame));
-    EXPECT_EQ(text_of(scan_rows(rows, settings, {}, a_row)), text_of(scan_rows(whole, settings, {}))) << frame.name;
+    EXPECT_EQ(text_of(scan_rows(rows, settings, {}, a_row).facts), text_of(scan_rows(whole, settings, {}).facts))
+        << frame.name;
   }
 }
 
@@ -148,7 +151,7 @@ TEST_P(Rows, OfACropAreThoseOfTheWhole) {
   for (const Frame& frame : frames) {
     SCOPED_TRACE(frame.name);
     BufferRows rows(frame_of(frame));
-    const std::string facts = text_of(scan_rows(rows, settings, {}, a_row));
+    const std::string facts = text_of(scan_rows(rows, settings, {}, a_row).facts);
     const Result part = filter_rows(rows, settings, facts), whole = filter(frame_of(frame), settings);
     expect_same(part.image, whole.image);
     expect_same(part.features, whole.features);
@@ -157,6 +160,38 @@ TEST_P(Rows, OfACropAreThoseOfTheWhole) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Rows, testing::Values("rpf", "gaussian", "cross-bilateral", "learned"));
+
+class Streams : public testing::TestWithParam<const char*> {};
+
+/// As if nothing were kept: a row in memory, read anew each time.
+Result streamed(const SampleBuffer& samples, Settings settings) {
+  settings.max_memory = 1;
+  BufferRows rows(samples);
+  const ScannedRows scanned = scan_rows(rows, settings, {}, a_row);
+  return run_streamed(rows, scanned.first_sample, std::get<ObservedFindings>(scanned.facts), settings, {}, a_row);
+}
+
+TEST_P(Streams, MakeThePictureOfTheWhole) {
+  Settings settings = settings_of("learned");
+  settings.backend = GetParam();
+  if (settings.backend == "opencl" && devices().empty()) GTEST_SKIP() << "no OpenCL device";
+  for (const Frame& frame : frames) {
+    SCOPED_TRACE(frame.name);
+    for (const bool cropped : {false, true}) {
+      if (cropped)
+        settings.crop = Window{-3, 12, 9, 4};
+      else
+        settings.crop.reset();
+      const SampleBuffer samples = frame_of(frame);
+      const Result part = streamed(samples, settings), whole = filter(samples, settings);
+      expect_same(part.image, whole.image);
+      expect_same(part.features, whole.features);
+      EXPECT_EQ(part.report.passes.back().energy, whole.report.passes.back().energy);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, Streams, testing::Values("cpu", "opencl"));
 
 TEST(RowsOfAFile, AreReadWhereTheCropNeedsThem) {
   Settings settings = settings_of("rpf");

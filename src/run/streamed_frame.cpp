@@ -1,0 +1,113 @@
+#include "run/streamed_frame.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "frame/clean.h"
+#include "frame/resolve.h"
+#include "learned/observe.h"
+#include "run/row_scan.h"
+
+namespace rpf {
+namespace {
+
+std::uint64_t block_bytes(const SampleRows& rows, int first, int end) {
+  std::uint64_t bytes = 0;
+  for (int row = first; row < end; ++row) bytes += row_bytes(rows, row);
+  return bytes;
+}
+
+}  // namespace
+
+StreamedFrame::StreamedFrame(SampleRows& rows, const ObservedFindings& found, const Settings& settings,
+                             const EstimatePlan& plan, PreparedFrame& prepared, std::uint64_t memory,
+                             std::uint64_t at_once)
+    : rows_(rows), found_(found), settings_(settings), plan_(plan), prepared_(prepared), memory_(memory) {
+  for (int first = 0; first < plan.height; first = blocks_.back().end) {
+    Block block;
+    block.first = first;
+    block.end = end_at_once(rows, first, at_once);
+    block.first_record =
+        prepared.frame.first_sample[static_cast<std::size_t>(first) * static_cast<std::size_t>(plan.width)];
+    blocks_.push_back(std::move(block));
+  }
+  prepared.frame.supply = this;
+}
+
+std::uint64_t StreamedFrame::least_bytes(const SampleRows& rows) {
+  std::uint64_t most = 0;
+  for (int first = 0, end = 0; first < rows.frame().data_window.height; first = end) {
+    end = end_at_once(rows, first);
+    most = std::max(most, block_bytes(rows, first, end));
+  }
+  return 2 * most;  // what was read, and what is made of it
+}
+
+StreamedFrame::Block& StreamedFrame::block_of(int row) {
+  const auto ends_before = [](const Block& block, int y) { return block.end <= y; };
+  return *std::lower_bound(blocks_.begin(), blocks_.end(), row, ends_before);
+}
+
+int StreamedFrame::bring(int first, int end) {
+  Block& block = block_of(first);
+  block.latest_use = ++uses_;
+  if (&block != current_) {
+    if (current_ != nullptr) exchange_with_frame(*current_);
+    current_ = nullptr;
+    if (block.records.empty()) read(block);
+    exchange_with_frame(block);
+    current_ = &block;
+    add_energy(block);
+  }
+  return std::min(block.end, end);
+}
+
+void StreamedFrame::exchange_with_frame(Block& block) {
+  Frame& frame = prepared_.frame;
+  std::swap(frame.records, block.records);
+  std::swap(frame.weights, block.weights);
+  std::swap(frame.others, block.others);
+  frame.first_record = block.first_record;
+}
+
+/// Those used longest ago go first.
+void StreamedFrame::make_room(std::uint64_t bytes) {
+  std::uint64_t kept = 0;
+  for (const Block& block : blocks_) kept += block.bytes();
+  while (kept + bytes > memory_) {
+    Block* oldest = nullptr;
+    for (Block& block : blocks_)
+      if (block.bytes() > 0 && (oldest == nullptr || block.latest_use < oldest->latest_use)) oldest = &block;
+    if (oldest == nullptr) return;
+    kept -= oldest->bytes();
+    oldest->records = oldest->weights = oldest->others = {};
+  }
+}
+
+void StreamedFrame::read(Block& block) {
+  make_room(block_bytes(rows_, block.first, block.end));
+  SampleBuffer samples = rows_.read(block.first, block.end);
+  clean_again(samples, find_columns(rows_.frame(), settings_.clamp_infinite), settings_.clamp_negative);
+  PreparedFrame part;
+  part.frame.variables = prepared_.frame.variables;
+  part.facts.radiance_scale = prepared_.facts.radiance_scale;
+  observe_rows(std::move(samples), rows_.frame(), found_, settings_, plan_, part);
+  block.records = std::move(part.frame.records);
+  block.weights = std::move(part.frame.weights);
+  block.others = std::move(part.frame.others);
+}
+
+void StreamedFrame::add_energy(const Block& block) {
+  if (block.end <= counted_) return;
+  counted_ = block.end;
+  const Window& crop = prepared_.facts.crop;
+  const int first = std::max(block.first, crop.y), end = std::min(block.end, crop.y + crop.height);
+  for (int y = first; y < end; ++y)
+    for (int x = crop.x; x < crop.x + crop.width; ++x)
+      for (const double c :
+           mean_color(prepared_.frame, static_cast<std::size_t>(y) * static_cast<std::size_t>(plan_.width) +
+                                           static_cast<std::size_t>(x)))
+        plain_energy_ += c;
+}
+
+}  // namespace rpf
