@@ -80,7 +80,8 @@ void StreamedFrame::make_room(std::uint64_t bytes) {
       if (block.bytes() > 0 && (oldest == nullptr || block.latest_use < oldest->latest_use)) oldest = &block;
     if (oldest == nullptr) return;
     kept -= oldest->bytes();
-    oldest->records = oldest->weights = oldest->others = {};
+    for (std::vector<float>* values : {&oldest->records, &oldest->weights, &oldest->others})
+      std::vector<float>().swap(*values);  // assigning an empty one would keep the memory
   }
 }
 
