@@ -45,21 +45,12 @@ class GaussianBank {
     const std::uint32_t fine = number == 0 ? finest_ : levels_[(number + 1) % 2], coarse = levels_[number % 2];
     blur(width_of(number), coarse);
     kernel::rpf_pixel_step stop{};
-    stop.in = fine;
-    stop.by = coarse;
-    stop.out = stops_;
     stop.mask = (number == 0 ? fine : coarse) + carried_;
-    stop.count = carried_;
     stop.scale = bias_ratio(number);
     stop.least = trust;
-    planning_.step(RPF_STEP_STOP, stop);
+    planning_.step(RPF_STEP_STOP, fine, coarse, stops_, carried_, stop);
     convolve(gaussian(smoothing * width_of(number)), stops_, 1, stops_ + 1);
-    kernel::rpf_pixel_step choose{};
-    choose.in = stops_;
-    choose.by = coarse;
-    choose.out = open_;
-    choose.count = carried_;
-    planning_.step(RPF_STEP_CHOOSE_SCALE, choose);
+    planning_.step(RPF_STEP_CHOOSE_SCALE, stops_, coarse, open_, carried_);
   }
 
  private:
@@ -97,12 +88,8 @@ class GaussianBank {
   /// Divides by the sum of the level's weights, or by its square.
   void normalize(int power, std::uint32_t in, std::uint32_t count, std::uint32_t out) {
     kernel::rpf_pixel_step s{};
-    s.in = in;
-    s.by = sums_ + carried_ + 1;
-    s.out = out;
-    s.count = count;
     s.reach = power;
-    planning_.step(RPF_STEP_NORMALIZE, s);
+    planning_.step(RPF_STEP_NORMALIZE, in, sums_ + carried_ + 1, out, count, s);
   }
 
   PixelPlanning& planning_;

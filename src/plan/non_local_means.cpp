@@ -57,12 +57,7 @@ class NonLocalMeans {
       average.count = carried;
       planning_.step(RPF_STEP_AVERAGE, average);
     }
-    kernel::rpf_pixel_step mix{};
-    mix.in = filtered;
-    mix.by = counts_;
-    mix.out = result;
-    mix.count = carried;
-    planning_.step(RPF_STEP_MIX, mix);
+    planning_.step(RPF_STEP_MIX, filtered, counts_, result, carried);
     return result;
   }
 
@@ -76,24 +71,15 @@ class NonLocalMeans {
     s.mask = mask_;
     s.scale = damping_;
     s.least = least_variance;
-    add(RPF_STEP_PATCH_DISTANCE, s, half.guide, variance_, distance_, 3);
-    add(RPF_STEP_BOX_ROWS, s, distance_, 0, distance_rows_, 2);
-    add(RPF_STEP_PATCH_WEIGHT, s, distance_rows_, distance_ + 1, weight_, 1);
-    add(RPF_STEP_BOX_ROWS, s, weight_, 0, weight_rows_, 1);
+    planning_.step(RPF_STEP_PATCH_DISTANCE, half.guide, variance_, distance_, 3, s);
+    planning_.step(RPF_STEP_BOX_ROWS, distance_, 0, distance_rows_, 2, s);
+    planning_.step(RPF_STEP_PATCH_WEIGHT, distance_rows_, distance_ + 1, weight_, 1, s);
+    planning_.step(RPF_STEP_BOX_ROWS, weight_, 0, weight_rows_, 1, s);
     s.least = least_share;
     s.mask = weight_ + 2;  // pairs of the patch
-    add(RPF_STEP_PATCH_SHARE, s, weight_rows_, distance_ + 1, share_, 1);
+    planning_.step(RPF_STEP_PATCH_SHARE, weight_rows_, distance_ + 1, share_, 1, s);
     s.scale = 1;
-    add(RPF_STEP_GATHER, s, half.values, share_, half.sums, planning_.carried());
-  }
-
-  void add(int kind, kernel::rpf_pixel_step s, std::uint32_t in, std::uint32_t by, std::uint32_t out,
-           std::uint32_t count) {
-    s.in = in;
-    s.by = by;
-    s.out = out;
-    s.count = count;
-    planning_.step(kind, s);
+    planning_.step(RPF_STEP_GATHER, half.values, share_, half.sums, planning_.carried(), s);
   }
 
   PixelPlanning& planning_;

@@ -43,6 +43,16 @@ class PixelPlanning {
     plan_.steps.push_back(rest);
   }
 
+  /// The same from `count` planes at `in`, and what stands at `by`, to `out`.
+  void step(int kind, std::uint32_t in, std::uint32_t by, std::uint32_t out, std::uint32_t count,
+            kernel::rpf_pixel_step rest = {}) {
+    rest.in = in;
+    rest.by = by;
+    rest.out = out;
+    rest.count = count;
+    step(kind, rest);
+  }
+
  private:
   const FrameFacts& facts_;
   PixelPlan& plan_;

@@ -77,8 +77,8 @@ class SteinRisk {
             gather(dx, dy, on_film(dx, dy, widths[i]), mean_, sums_[i], carried_);
       }
     for (std::uint32_t i = 0; i < candidates; ++i) {
-      add(RPF_STEP_RISK, variance_, sums_[i], risks_ + i, carried_);
-      add(RPF_STEP_AVERAGE, mean_, sums_[i], averages_ + i * carried_, carried_);
+      planning_.step(RPF_STEP_RISK, variance_, sums_[i], risks_ + i, carried_);
+      planning_.step(RPF_STEP_AVERAGE, mean_, sums_[i], averages_ + i * carried_, carried_);
     }
   }
 
@@ -91,35 +91,18 @@ class SteinRisk {
         weigh(dx, dy);
         gather(dx, dy, on_film(dx, dy, risk_width), risks_, risk_sums_, candidates);
       }
-    add(RPF_STEP_AVERAGE, risks_, risk_sums_, smooth_risks_, candidates);
+    planning_.step(RPF_STEP_AVERAGE, risks_, risk_sums_, smooth_risks_, candidates);
     const std::uint32_t result = planning_.planes(carried_);
     kernel::rpf_pixel_step s{};
-    s.in = smooth_risks_;
-    s.by = averages_;
-    s.out = result;
-    s.count = carried_;
     s.reach = static_cast<int>(candidates);
-    planning_.step(RPF_STEP_CHOOSE_LEAST, s);
+    planning_.step(RPF_STEP_CHOOSE_LEAST, smooth_risks_, averages_, result, carried_, s);
     return result;
   }
 
  private:
-  void add(int kind, std::uint32_t in, std::uint32_t by, std::uint32_t out, std::uint32_t count) {
-    kernel::rpf_pixel_step s{};
-    s.in = in;
-    s.by = by;
-    s.out = out;
-    s.count = count;
-    planning_.step(kind, s);
-  }
-
   void weigh(int dx, int dy) {
     kernel::rpf_pixel_step s{};
-    s.in = features_;
-    s.by = feature_variances_;
-    s.out = weight_;
     s.mask = mask_;
-    s.count = count_;
     s.dx = dx;
     s.dy = dy;
     s.least = least_variance;
@@ -127,19 +110,15 @@ class SteinRisk {
       const double sigma = sigma_of(planning_.facts().variables.feature_names[k]);
       s.weights[k] = static_cast<float>(1 / (2 * sigma * sigma));
     }
-    planning_.step(RPF_STEP_FEATURE_WEIGHT, s);
+    planning_.step(RPF_STEP_FEATURE_WEIGHT, features_, feature_variances_, weight_, count_, s);
   }
 
   void gather(int dx, int dy, float on_film, std::uint32_t in, std::uint32_t out, std::uint32_t count) {
     kernel::rpf_pixel_step s{};
-    s.in = in;
-    s.by = weight_;
-    s.out = out;
-    s.count = count;
     s.dx = dx;
     s.dy = dy;
     s.scale = on_film;
-    planning_.step(RPF_STEP_GATHER, s);
+    planning_.step(RPF_STEP_GATHER, in, weight_, out, count, s);
   }
 
   PixelPlanning& planning_;
