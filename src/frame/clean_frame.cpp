@@ -76,9 +76,10 @@ std::vector<float> carried_values(const CleanFrame& clean, bool with_color) {
   return values;
 }
 
+float power_of_two(int exponent) { return std::ldexp(1.0F, std::clamp(exponent, -126, 126)); }
+
 float radiance_scale(float brightest) {
-  // The scale itself must be a normal float whose inverse is one too, also for subnormal radiance.
-  return brightest > 0 ? std::ldexp(1.0F, std::clamp(brightest_exponent - std::ilogb(brightest), -126, 126)) : 1.0F;
+  return brightest > 0 ? power_of_two(brightest_exponent - std::ilogb(brightest)) : 1.0F;
 }
 
 SampleBuffer without_samples(const SampleBuffer& samples) {

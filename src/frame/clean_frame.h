@@ -31,6 +31,9 @@ CleanFrame begin_frame(const SampleBuffer& frame, const Settings& settings);
 /// Puts missing film positions of rows in the middle of their pixels where the method needs positions.
 void center_missing_positions(SampleBuffer& rows, const Columns& columns, Method method);
 
+/// 2^exponent, held within what is a normal float and has one for its inverse, also for subnormal radiance.
+float power_of_two(int exponent);
+
 /// The power of two that brings the brightest value of a frame to [2^40, 2^41); 1 for a black frame.
 float radiance_scale(float brightest);
 

@@ -15,8 +15,6 @@ Number lower_median(std::vector<Number> values) {
   return *middle;
 }
 
-float power_of_two(int exponent) { return std::ldexp(1.0F, std::clamp(exponent, -126, 126)); }
-
 double luminance(double red, double green, double blue) { return (red + green + blue) / 3; }
 
 bool is_relative(int input) {
