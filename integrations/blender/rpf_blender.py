@@ -16,7 +16,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-bl_info = {"name": "RPF: filter of samples", "author": "rpf", "version": (0, 1, 0), "blender": (4, 2, 0), "category": "Render",
+bl_info = {"name": "RPF: filter of samples", "author": "rpf", "version": (0, 1, 0), "blender": (3, 4, 0), "category": "Render",
            "location": "Properties > Render > RPF", "description": "Renders samples with Cycles and filters them"}
 PRESETS = ("fast", "balanced", "high")
 NOT_COVERED = ("Not covered: pixel filters wider than a pixel (a box is rendered), second hits, volumes, panoramic and orthographic cameras. "
@@ -193,10 +193,11 @@ class Settings:
         self.old = []
 
 
-def _sampling(samples):
-    """What makes Cycles' samples ours, of scene.cycles."""
-    return {"samples": samples, "use_adaptive_sampling": False, "use_denoising": False, "use_animated_seed": False, "time_limit": 0,
-            "sampling_pattern": "BLUE_NOISE", "auto_scrambling_distance": False, "scrambling_distance": 1, "use_guiding": False,
+def _sampling(cycles, samples):
+    """What makes Cycles' samples ours, of scene.cycles. Before 4.5 it had no subset: a frame of one sample of a sequence of that length."""
+    patterns = [pattern for pattern in ("BLUE_NOISE",) if pattern in cycles.bl_rna.properties["sampling_pattern"].enum_items]
+    return {"samples": samples if hasattr(cycles, "use_sample_subset") else 1, "use_adaptive_sampling": False, "use_denoising": False, "use_animated_seed": False, "time_limit": 0,
+            "sampling_pattern": (patterns or [cycles.sampling_pattern])[0], "auto_scrambling_distance": False, "scrambling_distance": 1, "use_guiding": False,
             "pixel_filter_type": "BOX", "use_sample_subset": True, "sample_subset_length": 1, "sample_offset": 0}
 
 
@@ -207,7 +208,7 @@ def _prepare(settings, scene, samples):
                  color_management="FOLLOW_SCENE")
     settings.set(scene.render, filepath="", use_file_extension=True, use_overwrite=True, use_placeholder=False, use_compositing=False,
                  use_sequencer=False, use_persistent_data=True, use_crop_to_border=True, use_single_layer=False, use_freestyle=False)
-    settings.set(scene.cycles, **_sampling(samples))
+    settings.set(scene.cycles, **_sampling(scene.cycles, samples))
 
 
 def _prepare_layers(settings, scene, camera):
@@ -354,8 +355,13 @@ def _curves(action):
 
 
 _COPIED = ("resolution_x", "resolution_y", "resolution_percentage", "pixel_aspect_x", "pixel_aspect_y", "use_border", "border_min_x",
-           "border_max_x", "border_min_y", "border_max_y", "use_motion_blur", "motion_blur_shutter", "motion_blur_position", "fps", "fps_base",
+           "border_max_x", "border_min_y", "border_max_y", "use_motion_blur", "motion_blur_shutter", "fps", "fps_base",
            "threads_mode", "threads")
+
+
+def _shutter_position(scene):
+    """What has the setting: of Cycles in Blender 3."""
+    return scene.render if hasattr(scene.render, "motion_blur_position") else scene.cycles
 
 
 @contextlib.contextmanager
@@ -368,6 +374,7 @@ def _plane_scene(scene, camera, samples):
         copy.frame_set(scene.frame_current, subframe=scene.frame_subframe)
         for name in _COPIED:
             setattr(copy.render, name, getattr(scene.render, name))
+        _shutter_position(copy).motion_blur_position = _shutter_position(scene).motion_blur_position
         copy.cycles.seed, copy.cycles.device, copy.cycles.max_bounces = scene.cycles.seed, "CPU", 0
         _prepare(Settings(), copy, samples)
         for name in ("where", "whence", "slid"):
@@ -391,9 +398,9 @@ def measure(plane_scene, camera, window, sample, folder):
     film, lens = camera.film_and_lens(where, -aov("whence"))
     film = np.stack([film[0] * window.full[0] - window.px, film[1] * window.full[1] - window.py])
     offset = where[0] - (slid[0] - 0.5) * _plane_size(camera)  # in [0, 2 _SLIDE] over the frames -1 to 1
-    render = plane_scene.render
-    begin = {"START": 0, "CENTER": -render.motion_blur_shutter / 2, "END": -render.motion_blur_shutter}[render.motion_blur_position]
-    return film, lens, (offset / _SLIDE - 1 - begin) / render.motion_blur_shutter
+    shutter = plane_scene.render.motion_blur_shutter
+    begin = {"START": 0, "CENTER": -shutter / 2, "END": -shutter}[_shutter_position(plane_scene).motion_blur_position]
+    return film, lens, (offset / _SLIDE - 1 - begin) / shutter
 
 
 TOLERANCE = {"film": 2e-3, "lens": 2e-3, "time": 1e-2}  # of numbers; what Cycles' tables and floats cost is a tenth of that

@@ -11,6 +11,7 @@ from pages import Block, blocks, pages
 RPF, PROJECT = (Path(argument).resolve() for argument in sys.argv[1:])
 PREPARED = {  # what pages take for granted, and what makes it in the page's folder
     "render.samples.exr": "rpf scene dof --size 48x36 -o render.samples.exr",
+    "frame.samples.exr": "rpf scene dof --size 48x36 -o frame.samples.exr",
     "reference.exr": "rpf scene dof --size 48x36 --reference 64 -o reference.exr",
     "picture.png": "rpf examples/dof-spheres.reference.exr -o picture.png --method gaussian --boxes 1",
     "in.####.exr": "for n in $(seq -w 1 24); do rpf scene motion --size 16x9 --seed $n -o in.00$n.exr; done",
