@@ -33,6 +33,14 @@ class SampleRows {
 /// nobody looks at the memory: that is for who asks for rows. Throws Error(input).
 std::unique_ptr<SampleRows> open_sample_rows(const std::string& path, const SampleReadOptions& options = {});
 
+/// write_samples() of rows that are read when they are needed, from the top, each once: a frame larger than memory.
+/// Throws as write_samples() does, what reading throws, and Error(cancelled), after which nothing is written.
+void write_sample_rows(const std::string& path, SampleRows& rows, const std::vector<std::string>& half_slots = {},
+                       const Control& control = {});
+
+/// Bytes that this takes at the most.
+std::uint64_t write_rows_memory(const SampleRows& rows);
+
 /// What filter() finds out of all samples of a frame together, in one pass over its rows, as JSON: notes, what is
 /// constant, how bright it is, where it lies. Depends on the settings but for crop, backend, threads and memory. Throws
 /// as filter() does.

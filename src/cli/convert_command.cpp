@@ -1,8 +1,11 @@
 #include "cli/commands.h"
 #include "cli/dropped.h"
+#include "cli/needs.h"
+#include "cli/progress_bar.h"
 #include "cli/sample_options.h"
 #include "rpf/error.h"
 #include "rpf/outputs.h"
+#include "rpf/rows.h"
 
 namespace rpf::cli {
 namespace {
@@ -16,7 +19,12 @@ int run(const SampleFileOptions& options) {
   check_outputs({{options.output, OutputKind::samples, {}, {}, true}}, {input});
   check_in_place(file, options.output);
   tell_dropped(file);
-  return write_and_tell(options.output, read_samples(input, read_options), half_slots_of({file}));
+  const auto rows = open_sample_rows(input, read_options);
+  check_need(file, "converting", write_rows_memory(*rows), read_options.max_memory);
+  with_progress("auto", [&](const Control& control) {
+    write_sample_rows(options.output, *rows, half_slots_of({file}), control);
+  });
+  return tell_written(options.output, rows->frame(), file.sample_count);
 }
 
 }  // namespace

@@ -39,12 +39,16 @@ std::vector<std::string> half_slots_of(const std::vector<SampleFileInfo>& files)
   return slots;
 }
 
+int tell_written(const std::string& path, const SampleBuffer& frame, std::uint64_t samples) {
+  print("{}: {}x{} pixels, {} samples of {} slots\n", path, frame.data_window.width, frame.data_window.height, samples,
+        frame.layout.size());
+  return received_signal() == 0 ? 0 : 128 + received_signal();
+}
+
 int write_and_tell(const std::string& path, const SampleBuffer& samples, const std::vector<std::string>& half_slots) {
   const SignalGuard guard;  // a signal now waits until the file is whole
   write_samples(path, samples, half_slots);
-  print("{}: {}x{} pixels, {} samples of {} slots\n", path, samples.data_window.width, samples.data_window.height,
-        samples.sample_count(), samples.layout.size());
-  return received_signal() == 0 ? 0 : 128 + received_signal();
+  return tell_written(path, samples, samples.sample_count());
 }
 
 }  // namespace rpf::cli

@@ -26,6 +26,9 @@ SampleReadOptions read_options_of(const SampleFileOptions& options);
 /// The slots that are half in every one of these files.
 std::vector<std::string> half_slots_of(const std::vector<SampleFileInfo>& files);
 
+/// Says what was written. Returns the exit code.
+int tell_written(const std::string& path, const SampleBuffer& frame, std::uint64_t samples);
+
 /// Writes the file while signals wait, and says so. Returns the exit code.
 int write_and_tell(const std::string& path, const SampleBuffer& samples, const std::vector<std::string>& half_slots);
 

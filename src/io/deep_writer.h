@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "rpf/io.h"
+#include "rpf/rows.h"
 
 namespace rpf::io {
 
-/// As write_samples() of rpf/io.h, whatever the extension of `path`.
-void write_deep(const std::string& path, const SampleBuffer& samples, const std::vector<std::string>& half_slots);
+/// As write_sample_rows() of rpf/rows.h, whatever the extension of `path`.
+void write_deep(const std::string& path, SampleRows& rows, const std::vector<std::string>& half_slots,
+                const Control& control);
 
 }  // namespace rpf::io

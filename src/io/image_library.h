@@ -16,7 +16,8 @@ struct ImageLibrary {
   void (*write)(const std::string& path, const AtomicFile& file, const Image& image);
 };
 
-/// Loads librpf_images.so from one of its places (parts/parts.h). `kind`: input or output, what it is needed for. Throws Error(kind) that names the file it is needed for where the library is missing.
+/// Loads librpf_images.so from one of its places (parts/parts.h). `kind`: input or output, what it is needed for.
+/// Throws Error(kind) that names the file it is needed for where the library is missing.
 const ImageLibrary& image_library(ErrorKind kind, const std::string& path);
 
 }  // namespace rpf::io

@@ -9,11 +9,11 @@
 
 namespace rpf::io {
 
-/// As inspect_samples(), read_samples() and write_samples() of rpf/io.h and open_sample_rows() of rpf/rows.h, for raw
-/// files only.
+/// As inspect_samples() and read_samples() of rpf/io.h, open_sample_rows() and write_sample_rows() of rpf/rows.h, for
+/// raw files only.
 SampleFileInfo inspect_raw(const std::string& path, const SampleReadOptions& options);
 SampleBuffer read_raw(const std::string& path, const SampleReadOptions& options);
 std::unique_ptr<SampleRows> open_raw_rows(const std::string& path, const SampleReadOptions& options);
-void write_raw(const std::string& path, const SampleBuffer& samples);
+void write_raw(const std::string& path, SampleRows& rows, const Control& control);
 
 }  // namespace rpf::io

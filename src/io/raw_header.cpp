@@ -200,14 +200,14 @@ RawHeader read_raw_header(FileBytes& file) {
   return header;
 }
 
-std::string raw_header_text(const std::string& path, const SampleBuffer& samples) {
+std::string raw_header_text(const std::string& path, const SampleBuffer& frame) {
   Json json{{"format", raw_format},
             {"version", raw_version},
-            {"dataWindow", json_of(samples.data_window)},
-            {"displayWindow", json_of(samples.display_window)},
-            {"channels", samples.layout.slots},
+            {"dataWindow", json_of(frame.data_window)},
+            {"displayWindow", json_of(frame.display_window)},
+            {"channels", frame.layout.slots},
             {"metadata", Json::object()}};
-  for (const auto& [name, attribute] : samples.metadata)
+  for (const auto& [name, attribute] : frame.metadata)
     if (!is_structural(name)) json["metadata"][name] = json_of(path, name, attribute);
   std::string text;
   try {

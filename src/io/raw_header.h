@@ -26,8 +26,9 @@ bool is_raw(const std::string& path);
 /// Throws Error(input) that names the key that is missing or not as expected.
 RawHeader read_raw_header(FileBytes& file);
 
-/// The line for these samples, filled up with blanks so that the planes begin at a multiple of 64 bytes. Throws
-/// Error(output) for metadata that JSON cannot hold: numbers that are not finite, text that is not UTF-8.
-std::string raw_header_text(const std::string& path, const SampleBuffer& samples);
+/// The line for a frame, whose samples it does not look at, filled up with blanks so that the planes begin at a
+/// multiple of 64 bytes. Throws Error(output) for metadata that JSON cannot hold: numbers that are not finite, text
+/// that is not UTF-8.
+std::string raw_header_text(const std::string& path, const SampleBuffer& frame);
 
 }  // namespace rpf::io

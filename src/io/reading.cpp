@@ -27,11 +27,11 @@ void check_sample_count(const SampleFileInfo& info) {
                             info.path, info.sample_count, most_samples_of_frame));
 }
 
-void check_read_back(const std::string& path, const SampleFileInfo& back, const SampleBuffer& samples) {
-  if (back.sample_count != samples.sample_count() || !(back.data_window == samples.data_window))
+void check_read_back(const std::string& path, const SampleFileInfo& back, const Window& window, std::uint64_t samples) {
+  if (back.sample_count != samples || !(back.data_window == window))
     throw Error(ErrorKind::output, fmt::format("\"{}\" was not written correctly: {} of {} samples came back; check "
                                                "the disk and write it again",
-                                               path, back.sample_count, samples.sample_count()));
+                                               path, back.sample_count, samples));
 }
 
 void leave_out_unwanted(SampleFileInfo& info, const SampleReadOptions& options) {

@@ -16,7 +16,7 @@ void check_sample_count(const SampleFileInfo& info);
 
 /// Throws Error(output) where a file just written is not what went in, so that a defect of a writer does not replace a
 /// good file. `back` is what was read of the temporary file.
-void check_read_back(const std::string& path, const SampleFileInfo& back, const SampleBuffer& samples);
+void check_read_back(const std::string& path, const SampleFileInfo& back, const Window& window, std::uint64_t samples);
 
 /// Takes their slots from the channels that are not to be read.
 void leave_out_unwanted(SampleFileInfo& info, const SampleReadOptions& options);

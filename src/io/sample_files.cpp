@@ -1,9 +1,12 @@
 // Which kind of sample file it is: by content when reading, by extension when writing.
+#include <algorithm>
+
 #include "io/deep_reader.h"
 #include "io/deep_writer.h"
 #include "io/exr_structure.h"
 #include "io/raw_files.h"
 #include "io/raw_header.h"
+#include "io/row_pieces.h"
 #include "io/sample_formats.h"
 
 namespace rpf {
@@ -25,10 +28,25 @@ std::unique_ptr<SampleRows> open_sample_rows(const std::string& path, const Samp
 }
 
 void write_samples(const std::string& path, const SampleBuffer& samples, const std::vector<std::string>& half_slots) {
+  samples.validate();
+  io::BufferRows rows(samples);
+  write_sample_rows(path, rows, half_slots);
+}
+
+void write_sample_rows(const std::string& path, SampleRows& rows, const std::vector<std::string>& half_slots,
+                       const Control& control) {
   if (io::sample_format_of(path) == io::SampleFormat::raw)
-    io::write_raw(path, samples);
+    io::write_raw(path, rows, control);
   else
-    io::write_deep(path, samples, half_slots);
+    io::write_deep(path, rows, half_slots, control);
+}
+
+std::uint64_t write_rows_memory(const SampleRows& rows) {
+  constexpr std::uint64_t row_copies = 3;  // as floats, as differences, packed
+  std::uint64_t row = 0;
+  for (int y = 0; y < rows.frame().data_window.height; ++y) row = std::max(row, rows.row_samples(y));
+  const std::uint64_t piece = std::max(row, io::most_piece_samples);
+  return (piece + row_copies * row) * (rows.frame().layout.size() + spare_columns) * sizeof(float);
 }
 
 }  // namespace rpf

@@ -3,6 +3,7 @@
 
 #include "deep_files.h"
 #include "rpf/io.h"
+#include "rpf/rows.h"
 #include "temporary_folder.h"
 
 namespace {
@@ -207,6 +208,44 @@ TEST(Samples, TheMemoryBudgetIsCheckedBeforehand) {
   EXPECT_EQ(rpf::inspect_samples(folder.file("a.exr"), options).sample_count, 360000U);
   options.max_memory = std::uint64_t{16} << 20;
   EXPECT_EQ(rpf::read_samples(folder.file("a.exr"), options).sample_count(), 360000U);
+}
+
+TEST(Samples, RowsThatAreCopiedMakeTheFileOfTheWhole) {
+  const TemporaryFolder folder;
+  // Pieces of several rows, of one, and a row that is more than a piece.
+  const SampleBuffer samples = make_buffer(
+      {-3, 5, 40, 64}, [](int pixel) { return pixel == 999 ? 70000U : static_cast<unsigned>(pixel * 7 % 97); });
+  for (const std::string kind : {".exr", ".rpf"}) {
+    rpf::write_samples(folder.file("whole" + kind), samples);
+    const auto rows = rpf::open_sample_rows(folder.file("whole" + kind));
+    for (const std::string copy : {".exr", ".rpf"}) {
+      rpf::write_samples(folder.file("expected" + copy), rpf::read_samples(folder.file("whole" + kind)));
+      rpf::write_sample_rows(folder.file("copy" + copy), *rows);
+      EXPECT_TRUE(file_bytes(folder.file("copy" + copy)) == file_bytes(folder.file("expected" + copy))) << kind << copy;
+    }
+  }
+}
+
+TEST(Samples, CopyingRowsTellsHowFarItIsAndCanBeCancelled) {
+  const TemporaryFolder folder;
+  rpf::write_samples(folder.file("a.exr"), make_buffer({0, 0, 400, 400}, [](int) { return 1U; }));
+  const auto rows = rpf::open_sample_rows(folder.file("a.exr"));
+  double latest = 0;
+  rpf::Control control;
+  control.progress = [&](const rpf::Progress& progress) {
+    EXPECT_GT(progress.fraction, latest);
+    latest = progress.fraction;
+    return progress.fraction < 0.5;
+  };
+  expect_error(error_of([&] { rpf::write_sample_rows(folder.file("b.exr"), *rows, {}, control); }),
+               rpf::ErrorKind::cancelled, {"nothing was written"});
+  EXPECT_EQ(folder.entry_count(), 1U);
+  control.progress = [&](const rpf::Progress& progress) {
+    latest = progress.fraction;
+    return true;
+  };
+  rpf::write_sample_rows(folder.file("b.exr"), *rows, {}, control);
+  EXPECT_EQ(latest, 1);
 }
 
 TEST(Samples, WritingRefusesABufferThatIsNone) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "io/row_pieces.h"
 #include "rpf/devices.h"
 #include "rpf/methods.h"
 #include "rpf/rows.h"
@@ -22,33 +23,20 @@ constexpr std::uint64_t a_row = 1;  ///< bytes: less than any row
 /// Rows of a frame in memory, counting those that are read.
 class BufferRows : public SampleRows {
  public:
-  explicit BufferRows(SampleBuffer samples) : samples_(std::move(samples)), frame_(samples_) {
-    frame_.first_sample.clear();
-    frame_.values.clear();
-  }
+  explicit BufferRows(SampleBuffer samples) : samples_(std::move(samples)), rows_(samples_) {}
 
-  const SampleBuffer& frame() const override { return frame_; }
-  std::uint64_t row_samples(int row) const override { return first(row + 1) - first(row); }
+  const SampleBuffer& frame() const override { return rows_.frame(); }
+  std::uint64_t row_samples(int row) const override { return rows_.row_samples(row); }
   SampleBuffer read(int from, int end) override {
     rows_read += end - from;
-    SampleBuffer rows = frame_;
-    rows.data_window.y += from;
-    rows.data_window.height = end - from;
-    const auto pixel = samples_.first_sample.begin() + static_cast<std::ptrdiff_t>(from) * frame_.data_window.width;
-    for (std::size_t p = 0; p <= rows.data_window.pixel_count(); ++p)
-      rows.first_sample.push_back(pixel[static_cast<std::ptrdiff_t>(p)] - *pixel);
-    rows.values.assign(samples_.record(first(from)), samples_.record(first(end)));
-    return rows;
+    return rows_.read(from, end);
   }
 
   int rows_read = 0;
 
  private:
-  std::uint32_t first(int row) const {
-    return samples_.first_sample[static_cast<std::size_t>(row) * static_cast<std::size_t>(frame_.data_window.width)];
-  }
-
-  SampleBuffer samples_, frame_;
+  SampleBuffer samples_;
+  io::BufferRows rows_;
 };
 
 struct Frame {
