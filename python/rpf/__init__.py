@@ -15,12 +15,12 @@ from .errors import Cancelled, DeviceError, Error, InputError, MemoryLimitError,
 
 if TYPE_CHECKING:
     from ._core import (DeviceInfo, Explanation, Image, ImageError, InputNote, LargestDifference, Method, PassReport, Profile,
-                        Progress, Report, Samples, Settings, compare, devices, explain_settings, method_settings, needed_slots,
+                        Progress, Report, Samples, Settings, compare, convert, devices, explain_settings, method_settings, needed_slots,
                         preset_settings, presets, read, read_image, version, write)
     from .filtering import explain, filter
 
 _COMPILED = ["DeviceInfo", "Explanation", "Image", "ImageError", "InputNote", "LargestDifference", "Method", "PassReport",
-             "Profile", "Progress", "Report", "Samples", "Settings", "compare", "devices", "explain_settings", "method_settings",
+             "Profile", "Progress", "Report", "Samples", "Settings", "compare", "convert", "devices", "explain_settings", "method_settings",
              "needed_slots", "preset_settings", "presets", "read", "read_image", "version", "write"]
 _RUNS = ["explain", "filter"]
 

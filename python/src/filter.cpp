@@ -1,5 +1,6 @@
 #include "rpf/filter.h"
 
+#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -9,6 +10,7 @@
 
 #include "bindings.h"
 #include "rpf/explain.h"
+#include "rpf/rows.h"
 
 namespace rpf::python {
 
@@ -80,10 +82,21 @@ ExplainedFrame run_explain(Samples& samples, const Settings& settings, bool keep
   return {{std::make_shared<Image>(std::move(all.layers)), std::move(all.report)}, std::move(all.groups)};
 }
 
+void convert(const std::filesystem::path& source, const std::filesystem::path& target) {
+  const auto rows = open_sample_rows(source.string());
+  watched(nb::none(), [&](const Control& control) {
+    write_sample_rows(target.string(), *rows, rows->frame().half_slots, control);
+    return true;
+  });
+}
+
 }  // namespace
 
 void bind_filter(nb::module_& module) {
   module.def("run_filter", &run_filter, "samples"_a, "settings"_a, "keep"_a, "progress"_a.none());
+  module.def("convert", &convert, "source"_a, "target"_a,
+             "Writes a sample file as another: .exr is deep OpenEXR, .rpf raw floats. A few MB of memory, however large the "
+             "file is. Raises InputError, OutputError.");
   module.def("available_memory", &available_memory, "Bytes that this process can have.");
   module.def(
       "needed_slots", [](const std::vector<std::string>& slots, const Settings& s) { return needed_slots({slots}, s); },

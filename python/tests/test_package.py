@@ -31,6 +31,18 @@ def address(array):
     return array.__array_interface__["data"][0]
 
 
+# ---- files --------------------------------------------------------------------------------------------------------------
+
+def test_convert_writes_what_read_and_write_write(tmp_path):
+    rpf.write(tmp_path / "a.rpf", small_frame())
+    for ending in ("exr", "rpf"):
+        rpf.convert(tmp_path / "a.rpf", tmp_path / f"converted.{ending}")
+        rpf.write(tmp_path / f"written.{ending}", rpf.read(tmp_path / "a.rpf"))
+        assert (tmp_path / f"converted.{ending}").read_bytes() == (tmp_path / f"written.{ending}").read_bytes()
+    with pytest.raises(rpf.InputError, match="nothing.exr"):
+        rpf.convert(tmp_path / "nothing.exr", tmp_path / "b.exr")
+
+
 # ---- bits ---------------------------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("backend", ["cpu", "opencl"])

@@ -5,16 +5,12 @@ Example: python -m rpf.mitsuba scene.xml -o samples.exr --spp 8 --filter clean.e
 import argparse
 import os
 import re
-import subprocess
 import sys
 
 import mitsuba as mi
 
 from ..errors import Error, InputError, UsageError
 from . import render_to_file, select_variant
-
-# A process of its own: the samples are in memory as a whole there, and here is Mitsuba.
-_CONVERT = "import sys, rpf; rpf.write(sys.argv[2], rpf.read(sys.argv[1]))"
 
 
 def _size(text):
@@ -108,7 +104,8 @@ def _render(arguments):
     try:
         render_to_file(raw, scene, arguments.spp, arguments.seed, sensor)
         if raw != arguments.output:
-            subprocess.run([sys.executable, "-c", _CONVERT, raw, arguments.output], check=True)
+            import rpf  # needs what is compiled; rendering to .rpf does not
+            rpf.convert(raw, arguments.output)
     finally:
         if raw != arguments.output and os.path.exists(raw):
             os.remove(raw)
@@ -132,8 +129,6 @@ def main(arguments=None):
         _render(arguments)
         if arguments.filter:
             _filter(arguments)
-    except subprocess.CalledProcessError as failure:
-        return failure.returncode  # it has said why
     except (OSError, RuntimeError, ValueError) as failure:
         print(f"rpf.mitsuba: {failure}", file=sys.stderr)
         return failure.exit_code if isinstance(failure, Error) else 4 if isinstance(failure, OSError) else 1
