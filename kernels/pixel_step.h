@@ -30,6 +30,10 @@ namespace rpf::kernel {
 #define RPF_STEP_FEATURE_WEIGHT 13
 #define RPF_STEP_RISK 14
 #define RPF_STEP_CHOOSE_LEAST 15
+#define RPF_STEP_SHADOW_FALLOFF 16
+#define RPF_STEP_SURFACE_WEIGHT 17
+#define RPF_STEP_WITHOUT_ALBEDO 18
+#define RPF_STEP_WITH_ALBEDO 19
 
 #define RPF_STEP_WEIGHTS 64  // numbers that a step brings along
 

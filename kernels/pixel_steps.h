@@ -6,6 +6,7 @@
 #include "bank_steps.h"
 #include "patch_steps.h"
 #include "risk_steps.h"
+#include "shadow_steps.h"
 
 #ifdef __cplusplus
 namespace rpf::kernel {
@@ -43,6 +44,14 @@ RPF_INLINE void rpf_run_step(RPF_PLANES float* planes, const rpf_pixel_step* ste
       return rpf_risk(planes, step, run);
     case RPF_STEP_CHOOSE_LEAST:
       return rpf_choose_least(planes, step, run);
+    case RPF_STEP_SHADOW_FALLOFF:
+      return rpf_shadow_falloff(planes, step, run);
+    case RPF_STEP_SURFACE_WEIGHT:
+      return rpf_surface_weight(planes, step, run);
+    case RPF_STEP_WITHOUT_ALBEDO:
+      return rpf_without_albedo(planes, step, run);
+    case RPF_STEP_WITH_ALBEDO:
+      return rpf_with_albedo(planes, step, run);
   }
 }
 

@@ -9,12 +9,12 @@
 namespace rpf {
 
 /// The names of the methods, in the order of Method: "rpf", "gaussian", "bilateral", "cross-bilateral", "learned",
-/// "nlm", "gem", "sbf".
+/// "nlm", "gem", "sbf", "axis-aligned".
 std::vector<std::string> method_names();
 std::string name_of(Method method);
 
 /// Whether a method filters pixels (algorithm.md, section 9): it looks at means and variances, not at single samples,
-/// and needs two samples in a pixel.
+/// and needs two samples in a pixel (all but axis-aligned).
 bool filters_pixels(Method method);
 
 /// The settings of a method: box widths, sigmas and features that did well for it (docs/methods.md); whatever it does

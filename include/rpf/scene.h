@@ -38,6 +38,10 @@ struct SceneOptions {
   float world_scale = 1;  ///< above 0
   std::array<float, 3> world_offset = {0, 0, 0};
 
+  /// Also write feature.penumbra.slope and .width, which the method axis-aligned needs (docs/file-format.md). The
+  /// picture does not change.
+  bool penumbra = false;
+
   int threads = 0;  ///< 0: available_threads(). Never changes the result.
 };
 
@@ -51,10 +55,10 @@ struct SceneInfo {
 std::vector<SceneInfo> scenes();
 
 /// Renders the samples of a scene. Layout: R G B film.X/Y random.lens.U/V random.time random.light.U/V random.bsdf.U/V
-/// feature.N, P, albedo, uv (first hit), feature.N2, P2, albedo2 (second hit), feature.hit. What a scene does not use
-/// (no lens, nothing moves, ...) is 0 in all samples; what a sample does not have (no hit) is NaN.
-/// Metadata: rpf:seed, rpf:renderer, rpf:scene, rpf:sampler. The same options give the same bits.
-/// Throws Error(usage) for an unknown name, naming those there are, or an option that cannot be; Error(cancelled).
+/// feature.N, P, albedo, uv (first hit), feature.N2, P2, albedo2 (second hit), feature.hit, and what SceneOptions ask
+/// for. What a scene does not use (no lens, nothing moves, ...) is 0 in all samples; what a sample does not have (no
+/// hit) is NaN. Metadata: rpf:seed, rpf:renderer, rpf:scene, rpf:sampler. The same options give the same bits. Throws
+/// Error(usage) for an unknown name, naming those there are, or an option that cannot be; Error(cancelled).
 SampleBuffer render_scene(const std::string& name, const SceneOptions& options, const Control& control = {});
 
 /// The attribute of a reference that tells its own relMSE.

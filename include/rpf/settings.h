@@ -31,16 +31,18 @@ enum class Method {
   cross_bilateral,  ///< and from the differences in features: what RPF would be without its statistics
   learned,          ///< from a network that looks at every sample
   nlm,              ///< of pixels: from the likeness of the patches around them (Rousselle, Knaus and Zwicker 2012)
-  gem,  ///< of pixels: Gaussians, each as wide as bias and variance allow (Rousselle, Knaus and Zwicker 2011)
-  sbf   ///< of pixels: cross-bilateral, each as wide as Stein's risk says (Li, Wu and Chuang 2012)
+  gem,          ///< of pixels: Gaussians, each as wide as bias and variance allow (Rousselle, Knaus and Zwicker 2011)
+  sbf,          ///< of pixels: cross-bilateral, each as wide as Stein's risk says (Li, Wu and Chuang 2012)
+  axis_aligned  ///< of pixels: soft shadows, as wide as their occluders allow (Mehta, Wang and Ramamoorthi 2012)
 };
 
 /// What filter() is to do.
 struct Settings {
   /// Methods with fixed weights know box_widths, the sigmas, features, clamp_negative and everything from
-  /// filter_features on; nlm knows damping and window, gem gamma, sbf features, and these three the clamps and
-  /// everything from filter_features on; learned knows model, random, features, clamp_negative and everything from
-  /// filter_features on. method_settings() (rpf/methods.h) has box widths and sigmas that suit a method.
+  /// filter_features on; nlm knows damping and window, gem gamma, sbf features, axis_aligned features and bandwidth,
+  /// and these four the clamps and everything from filter_features on; learned knows model, random, features,
+  /// clamp_negative and everything from filter_features on. method_settings() (rpf/methods.h) has box widths and sigmas
+  /// that suit a method.
   Method method = Method::rpf;
   /// Of learned: the name of a network in the library (presets.h), or a network file.
   std::string model = "balanced";
@@ -90,6 +92,8 @@ struct Settings {
   int window = 21;        ///< width of the box that neighbors come from, pixels: odd, 1 .. 255
   // Of gem.
   float gamma = 0.2F;  ///< larger holds wide Gaussians back: 0.01 .. 0.5
+  // Of axis_aligned.
+  float bandwidth = 2;  ///< mu of (9.22): larger makes filters narrower; 1e-3 .. 1e3
 
   /// Also filter the features with the weights of the color: Result::features.
   bool filter_features = false;

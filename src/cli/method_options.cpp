@@ -25,11 +25,12 @@ const Limited limited[] = {
      {Method::rpf}},
     {{"--boxes"}, {Method::rpf, Method::gaussian, Method::bilateral, Method::cross_bilateral}},
     {{"--random"}, {Method::rpf, Method::learned}},
-    {{"--features"}, {Method::rpf, Method::cross_bilateral, Method::learned, Method::sbf}},
+    {{"--features"}, {Method::rpf, Method::cross_bilateral, Method::learned, Method::sbf, Method::axis_aligned}},
     {{"--sigma-color"}, {Method::bilateral, Method::cross_bilateral}},
     {{"--sigma-feature"}, {Method::cross_bilateral}},
     {{"--damping", "--window"}, {Method::nlm}},
     {{"--gamma"}, {Method::gem}},
+    {{"--bandwidth"}, {Method::axis_aligned}},
 };
 
 bool knows(const Limited& group, Method method) {
@@ -66,8 +67,9 @@ void add_method_options(CLI::App& app, FilterOptions& o) {
          "learned: weights from a network; rpf: Random Parameter Filtering as published; gaussian: weights from the "
          "distance on the film; bilateral: and from the color; cross-bilateral: and from the features. gaussian and "
          "bilateral also filter any image. Of pixels: nlm: from the likeness of patches; gem: Gaussians, each as wide "
-         "as "
-         "bias and variance allow; sbf: cross-bilateral, each as wide as Stein's risk says")
+         "as bias and variance allow; sbf: cross-bilateral, each as wide as Stein's risk says; axis-aligned: soft "
+         "shadows, "
+         "as wide as their occluders allow")
       ->check(CLI::IsMember(method_names()))
       ->default_str("learned; rpf where an option asks for it");
   restrict_to(app.add_option("--sigma-color", o.sigma_color,
@@ -85,6 +87,9 @@ void add_method_options(CLI::App& app, FilterOptions& o) {
               ranges::box_width)
       ->capture_default_str();
   restrict_to(app.add_option("--gamma", o.settings.gamma, "Of gem: larger holds wide Gaussians back"), ranges::gamma)
+      ->capture_default_str();
+  restrict_to(app.add_option("--bandwidth", o.settings.bandwidth, "mu of axis-aligned: larger makes filters narrower"),
+              ranges::bandwidth)
       ->capture_default_str();
   app.parse_complete_callback([&app, &o] { check_given_options(app, method_settings(o.method).method); });
 }

@@ -73,7 +73,7 @@ void write_reference_image(const Options& o, const SceneOptions& scene) {
 
 /// More than the machine has: refused before anything is rendered.
 void check_budget(const Options& o, const SceneOptions& scene) {
-  constexpr double slots = 33;
+  const double slots = scene.penumbra ? 35 : 33;
   const double pixels = static_cast<double>(scene.width) * scene.height;
   const double need_mb = pixels * scene.samples * slots * sizeof(float) / megabyte;
   const double limit_mb = static_cast<double>(memory_limit(o.max_memory_mb)) / megabyte;
@@ -131,6 +131,10 @@ void add_options(CLI::App& command, Options& o) {
       ->excludes(adaptive)
       ->excludes(reference);
   adaptive->excludes(reference);
+  command
+      .add_flag("--penumbra", o.scene.penumbra,
+                "Also write how wide shadows' edges are, which rpf --method axis-aligned needs")
+      ->excludes(reference);
 }
 
 void add_world_options(CLI::App& command, Options& o) {

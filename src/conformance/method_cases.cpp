@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <limits>
 
 #include "conformance/case_list.h"
@@ -12,7 +14,9 @@ class MethodCases {
   MethodCases(CaseList& list, std::string method) : list_(list), method_(std::move(method)) {}
 
   ConformanceCase basic(int samples = 4) const {
-    ConformanceCase c = CaseList::basic("dof", samples);
+    const bool of_shadows = method_settings(method_).method == Method::axis_aligned;
+    ConformanceCase c = CaseList::basic(of_shadows ? "soft-shadow" : "dof", samples);
+    c.options.penumbra = of_shadows;
     c.settings = method_settings(method_);
     c.settings.box_widths = {9, 5};
     return c;
@@ -109,6 +113,23 @@ void add_gammas(MethodCases& list) {
     list.add(fmt::format("gamma/{:g}", gamma), [&](Settings& s) { s.gamma = gamma; });
 }
 
+void add_shadows(MethodCases& list) {
+  for (const float bandwidth : {1e-3F, 0.1F, 1e3F})
+    list.add(fmt::format("bandwidth/{:g}", bandwidth), [&](Settings& s) { s.bandwidth = bandwidth; });
+  const std::vector<std::vector<std::string>> features = {{"P", "penumbra"}, {"P", "penumbra", "N"}};
+  for (const auto& groups : features)
+    list.add(fmt::format("features/{}", fmt::join(groups, ",")), [&](Settings& s) { s.features = groups; });
+  for (const auto& [slot, value] : {std::pair{"feature.penumbra.width", 1e15F},
+                                    {"feature.penumbra.slope", -1.0F},
+                                    {"feature.penumbra.width", 1e-42F},
+                                    {"feature.albedo.R", 0.0F}}) {
+    ConformanceCase c = list.basic();
+    c.change = poison(slot, value, 3);
+    list.add(fmt::format("extreme/{}{:g}", slot, value), c);
+  }
+  list.add("1spp", list.basic(1));
+}
+
 void add_common_settings(MethodCases& list) {
   list.add("carried/features", [](Settings& s) { s.filter_features = true; });
   list.add("crop", [](Settings& s) { s.crop = Window{3, 5, 11, 7}; });
@@ -127,6 +148,7 @@ void add_methods(CaseList& all) {
       if (method == Method::nlm) add_windows_of_patches(list);
       if (method == Method::gem) add_gammas(list);
       if (method == Method::sbf) add_feature_groups(list);
+      if (method == Method::axis_aligned) add_shadows(list);
       continue;
     }
     add_method_frames(list);

@@ -48,6 +48,16 @@ class Pixels {
         return static_cast<float>(feature_mean(pixel, plane.channel) / plane.unit);
       case PixelQuantity::feature_variance:
         return static_cast<float>(feature_variance(pixel, plane.channel) / (plane.unit * plane.unit));
+      case PixelQuantity::known:
+        return knows_group(pixel, group_of_variable(variables_.feature_names[plane.channel])) ? 1 : 0;
+      case PixelQuantity::known_mean:
+        return static_cast<float>(known_mean(pixel, plane));
+      case PixelQuantity::least_positive:
+        return static_cast<float>(least_positive(pixel, plane.channel) / plane.unit);
+      case PixelQuantity::any_positive:
+        return least_positive(pixel, plane.channel) > 0 ? 1 : 0;
+      case PixelQuantity::zero:
+        return 0;
       case PixelQuantity::mask:
         return samples > 0 ? 1 : 0;
       case PixelQuantity::count:
@@ -70,6 +80,38 @@ class Pixels {
   double feature_variance(std::size_t pixel, std::size_t feature) const {
     if (frame_.samples(pixel) < 2) return 0;
     return variance_of(pixel, [&](std::uint32_t i) { return feature_at(i, feature); });
+  }
+
+  /// In its unit, from its origin on.
+  double known_mean(std::size_t pixel, const PixelPlane& plane) const {
+    double sum = 0, known = 0;
+    for (std::uint32_t i = frame_.first_sample[pixel]; i < frame_.first_sample[pixel + 1]; ++i) {
+      const double value = frame_.record(i)[variables_.features() + plane.channel];
+      if (std::isnan(value)) continue;
+      sum += value;
+      ++known;
+    }
+    return known > 0 ? (sum / known - plane.origin) / plane.unit : 0;
+  }
+
+  bool knows_group(std::size_t pixel, const std::string& group) const {
+    for (std::size_t k = 0; k < variables_.feature_names.size(); ++k) {
+      if (group_of_variable(variables_.feature_names[k]) != group) continue;
+      bool known = false;
+      for (std::uint32_t i = frame_.first_sample[pixel]; i < frame_.first_sample[pixel + 1]; ++i)
+        known = known || !std::isnan(frame_.record(i)[variables_.features() + k]);
+      if (!known) return false;
+    }
+    return true;
+  }
+
+  double least_positive(std::size_t pixel, std::size_t feature) const {
+    double least = 0;
+    for (std::uint32_t i = frame_.first_sample[pixel]; i < frame_.first_sample[pixel + 1]; ++i) {
+      const double value = frame_.record(i)[variables_.features() + feature];
+      if (value > 0 && (least == 0 || value < least)) least = value;
+    }
+    return least;
   }
 
   /// (9.2): of the mean of a color channel; a pixel with a single sample has the frame's mean variance.

@@ -79,15 +79,25 @@ std::vector<std::string> select_random(const std::vector<std::string>& slots, co
 /// Groups that the learned estimator has inputs for (docs/network.md).
 const Groups learned_random = {"lens", "time", "light", "bsdf"}, learned_features = {"N", "albedo", "P", "N2", "P2"};
 
+/// Groups that the axis-aligned filter of shadows looks at; without the first two it cannot be.
+const Groups shadow_features = {"P", "penumbra", "N", "albedo"};
+
+/// A kind of channel, and the groups of it that a method knows.
+struct Known {
+  const char* method;
+  const char* kind;
+  const Groups& groups;
+};
+
 /// The groups that were asked for, or all that are there and known.
 std::vector<std::string> select_known(const std::vector<std::string>& slots,
-                                      const std::optional<std::vector<std::string>>& asked, const Groups& known,
-                                      const char* kind) {
+                                      const std::optional<std::vector<std::string>>& asked, const Known& what) {
+  const auto& [method, kind, known] = what;
   Groups wanted = without_first_hit_word(asked.value_or(Groups{all_groups}), slots);
   for (const std::string& name : wanted)
     if (name != all_groups && name != inside_pixel && contains(groups_of(slots), name) && !contains(known, name))
-      throw Error(ErrorKind::usage, fmt::format("{} '{}' is none that the learned estimator looks at; those are: {}",
-                                                kind, name, fmt::join(known, ", ")));
+      throw Error(ErrorKind::usage, fmt::format("{} '{}' is none that {} looks at; those are: {}", kind, name, method,
+                                                fmt::join(known, ", ")));
   std::vector<std::string> picked = pick(slots, wanted, kind);
   picked.erase(std::remove_if(picked.begin(), picked.end(),
                               [&](const std::string& slot) { return !contains(known, group_of(slot)); }),
@@ -95,18 +105,38 @@ std::vector<std::string> select_known(const std::vector<std::string>& slots,
   return picked;
 }
 
+/// Shadows need to know where surfaces are and what stands before the light.
+std::vector<std::string> select_shadow_features(const std::vector<std::string>& slots, const Settings& settings) {
+  for (const char* slot :
+       {"feature.P.X", "feature.P.Y", "feature.P.Z", "feature.penumbra.slope", "feature.penumbra.width"})
+    if (!contains(slots, slot))
+      throw Error(
+          ErrorKind::input,
+          fmt::format("--method axis-aligned: the samples have no {}, which docs/file-format.md describes; have "
+                      "the renderer write it (rpf scene does with --penumbra), or choose another --method",
+                      slot));
+  std::vector<std::string> picked =
+      select_known(slots, settings.features, {"the axis-aligned filter", "feature", shadow_features});
+  for (const char* group : {"P", "penumbra"})
+    if (!contains(groups_of(picked), group))
+      throw Error(ErrorKind::usage,
+                  fmt::format("--method axis-aligned needs the features P and penumbra; add {} to --features", group));
+  return picked;
+}
+
 }  // namespace
 
 Selection select_channels(const SampleLayout& layout, const Settings& settings) {
-  if (settings.method == Method::gaussian || settings.method == Method::bilateral ||
-      settings.method == Method::nlm || settings.method == Method::gem)
+  if (settings.method == Method::gaussian || settings.method == Method::bilateral || settings.method == Method::nlm ||
+      settings.method == Method::gem)
     return {};
   const auto random = slots_where(layout, is_random_slot);
   const auto features = slots_where(layout, is_feature_slot);
   Selection selection;
   if (settings.method == Method::learned)
-    return {select_known(random, settings.random, learned_random, "random parameter"),
-            select_known(features, settings.features, learned_features, "feature")};
+    return {select_known(random, settings.random, {"the learned estimator", "random parameter", learned_random}),
+            select_known(features, settings.features, {"the learned estimator", "feature", learned_features})};
+  if (settings.method == Method::axis_aligned) return {{}, select_shadow_features(features, settings)};
   if (settings.method == Method::rpf) selection.random = select_random(random, settings);
   if (contains(settings.features.value_or(Groups{}), inside_pixel))
     throw Error(ErrorKind::usage,

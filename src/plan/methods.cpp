@@ -21,7 +21,8 @@ constexpr NamedMethod all_methods[] = {{"rpf", Method::rpf},
                                        {"learned", Method::learned},
                                        {"nlm", Method::nlm},
                                        {"gem", Method::gem},
-                                       {"sbf", Method::sbf}};
+                                       {"sbf", Method::sbf},
+                                       {"axis-aligned", Method::axis_aligned}};
 
 Settings settings_of(Method method) {
   Settings s;
@@ -44,7 +45,9 @@ std::vector<std::string> method_names() {
 
 std::string name_of(Method method) { return all_methods[static_cast<std::size_t>(method)].name; }
 
-bool filters_pixels(Method method) { return method == Method::nlm || method == Method::gem || method == Method::sbf; }
+bool filters_pixels(Method method) {
+  return method == Method::nlm || method == Method::gem || method == Method::sbf || method == Method::axis_aligned;
+}
 
 Settings method_settings(const std::string& name) {
   for (const NamedMethod& m : all_methods)

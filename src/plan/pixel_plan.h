@@ -20,7 +20,7 @@ struct PixelPlan {
 };
 
 /// Of a method that filters_pixels(). Throws Error(usage) as validate() does, Error(input) where no pixel has two
-/// samples: what is noise cannot be told then.
+/// samples and the method has to tell what is noise: all but axis-aligned.
 PixelPlan make_pixel_plan(const FrameFacts& facts, const Settings& settings);
 
 }  // namespace rpf

@@ -22,6 +22,12 @@ class PixelPlanning {
     return planes(channels);
   }
 
+  /// One plane of the frame.
+  std::uint32_t input(const PixelPlane& plane) {
+    plan_.inputs.push_back(plane);
+    return planes(1);
+  }
+
   /// Planes of features, each divided by its unit; of variances by the square.
   std::uint32_t feature_input(PixelQuantity quantity, const std::vector<double>& units) {
     for (std::size_t k = 0; k < units.size(); ++k) plan_.inputs.push_back({quantity, k, units[k]});

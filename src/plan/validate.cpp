@@ -49,6 +49,7 @@ void validate(const Settings& s) {
   require("--damping", s.damping, ranges::damping);
   require("--window", s.window, ranges::box_width);
   require("--gamma", s.gamma, ranges::gamma);
+  require("--bandwidth", s.bandwidth, ranges::bandwidth);
   if (s.threads != 0) require("--threads", s.threads, ranges::threads);  // 0: all cores
 }
 

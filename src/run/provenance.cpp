@@ -68,6 +68,7 @@ void describe_pixel_method(const Settings& settings, Metadata& m) {
     m["rpf:window"] = std::int32_t{settings.window};
   }
   if (settings.method == Method::gem) m["rpf:gamma"] = settings.gamma;
+  if (settings.method == Method::axis_aligned) m["rpf:bandwidth"] = settings.bandwidth;
   m["rpf:choices"] =
       fmt::format("clamp-negative={} clamp-infinite={}", settings.clamp_negative, settings.clamp_infinite);
 }

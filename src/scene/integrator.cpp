@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scene/penumbra.h"
 #include "scene/random.h"
 
 namespace rpf::scene {
@@ -43,11 +44,8 @@ float share(float mine, float other) { return mine / (mine + other); }
 /// Light that comes straight from a chosen point of an area light. u chooses the light too.
 Vec3 light_from_lights(const World& world, const Tracer& tracer, const Shading& s, Pair random, Strategy strategy) {
   if (world.lights.empty() || strategy == Strategy::rays_only) return {};
-  const float scaled = random.u * static_cast<float>(world.lights.size());
-  const int number = std::min(static_cast<int>(scaled), static_cast<int>(world.lights.size()) - 1);
+  const auto [number, point] = light_point(world, random);
   const AreaLight& light = world.lights[number];
-  const Vec3 point =
-      light.shape.corner + (scaled - static_cast<float>(number)) * light.shape.edge_u + random.v * light.shape.edge_v;
   const Vec3 way = point - s.hit.position;
   const float distance = length(way);
   const Vec3 direction = 1 / distance * way, in = s.frame.to_local(direction);

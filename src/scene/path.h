@@ -18,4 +18,10 @@ struct Path {
   SurfacePoint first, second;
 };
 
+/// What stands between a point and the light that its sample chose.
+struct Penumbra {
+  float slope = 0;  ///< d1 / d2 - 1, where d1 is from the light to the point, d2 to what blocks it nearest to the point
+  float width = 0;  ///< that times half the edge of a square as large as the light, scene units
+};
+
 }  // namespace rpf::scene

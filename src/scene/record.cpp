@@ -40,9 +40,8 @@ SurfacePoint or_missing(const SurfacePoint& point, const SceneOptions& options) 
   return placed;
 }
 
-}  // namespace
-
-SampleLayout sample_layout() {
+/// The slots of every scene.
+SampleLayout common_layout() {
   return {{"R",
            "G",
            "B",
@@ -78,6 +77,14 @@ SampleLayout sample_layout() {
            "feature.hit"}};
 }
 
+}  // namespace
+
+SampleLayout sample_layout(const SceneOptions& options) {
+  SampleLayout layout = common_layout();
+  if (options.penumbra) layout.slots.insert(layout.slots.end(), {"feature.penumbra.slope", "feature.penumbra.width"});
+  return layout;
+}
+
 void write_record(const RenderedSample& sample, const Usage& usage, const SceneOptions& options, float* record) {
   Pen pen(record);
   pen.put(sample.path.radiance);
@@ -95,6 +102,9 @@ void write_record(const RenderedSample& sample, const Usage& usage, const SceneO
   pen.put(second.position);
   pen.put(second.albedo);
   pen.put(sample.path.first.hit ? 1.0F : 0.0F);
+  if (!options.penumbra) return;
+  pen.put(first.hit ? sample.penumbra.slope : missing);
+  pen.put(first.hit ? options.world_scale * sample.penumbra.width : missing);
 }
 
 }  // namespace rpf::scene

@@ -79,7 +79,7 @@ SampleBuffer render_scene(const std::string& name, const SceneOptions& options, 
   const Renderer renderer(name, options);
   SampleBuffer samples;
   samples.data_window = samples.display_window = {0, 0, options.width, options.height};
-  samples.layout = sample_layout();
+  samples.layout = sample_layout(options);
   samples.metadata = metadata_of(name, options);
   samples.first_sample = first_samples(options);
   samples.values.resize(samples.sample_count() * samples.layout.size());

@@ -7,6 +7,7 @@
 
 #include "rpf/error.h"
 #include "scene/integrator.h"
+#include "scene/penumbra.h"
 #include "scene/random.h"
 #include "scene/registry.h"
 
@@ -54,7 +55,11 @@ float film_position(std::size_t pixel, float offset) {
 }
 
 Renderer::Renderer(const std::string& name, const SceneOptions& options)
-    : world_(checked_world(name, options)), usage_(world_.usage()), width_(options.width), height_(options.height) {
+    : world_(checked_world(name, options)),
+      usage_(world_.usage()),
+      width_(options.width),
+      height_(options.height),
+      penumbra_(options.penumbra) {
   if (!world_.direct) tracer_ = std::make_unique<Tracer>(world_);
 }
 
@@ -70,6 +75,7 @@ RenderedSample Renderer::render(std::size_t pixel, const PixelSampler& sampler, 
   }
   const Ray ray = world_.camera.ray(sample.film_x, sample.film_y, width_, height_, sample.draw.lens, sample.draw.time);
   sample.path = trace_path(world_, *tracer_, ray, sample.draw);
+  if (penumbra_) sample.penumbra = penumbra_of(world_, *tracer_, ray, sample.path.first, sample.draw.light);
   return sample;
 }
 

@@ -27,6 +27,7 @@ class Renderer {
   World world_;
   Usage usage_;
   int width_, height_;
+  bool penumbra_;
   std::unique_ptr<Tracer> tracer_;  ///< nothing where the scene has no geometry
 };
 

@@ -117,9 +117,9 @@ rpf::Settings settings_of(Bytes& bytes, const Kind& kind) {
 
 /// One of the methods with fixed weights, which are compiled from box.cl, or of those that filter pixels.
 void choose_method(Bytes& bytes, rpf::Settings& s) {
-  s.method = bytes.one_of(std::array<rpf::Method, 6>{rpf::Method::gaussian, rpf::Method::bilateral,
+  s.method = bytes.one_of(std::array<rpf::Method, 7>{rpf::Method::gaussian, rpf::Method::bilateral,
                                                      rpf::Method::cross_bilateral, rpf::Method::nlm, rpf::Method::gem,
-                                                     rpf::Method::sbf});
+                                                     rpf::Method::sbf, rpf::Method::axis_aligned});
   if (bytes.flag(2)) s.sigma_color = bytes.value();
   if (bytes.flag(2)) s.sigma_feature = bytes.value();
 }

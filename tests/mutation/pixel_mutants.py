@@ -2,6 +2,7 @@
 from mutants import Mutant
 
 PATCH, BANK, RISK, PLANES = "kernels/patch_steps.h", "kernels/bank_steps.h", "kernels/risk_steps.h", "kernels/plane_steps.h"
+SHADOW = "kernels/shadow_steps.h"
 QUANTITIES = "src/frame/pixel_planes.cpp"
 
 MUTANTS = [
@@ -16,5 +17,9 @@ MUTANTS = [
     Mutant("pixel_gem_bias", BANK, "trust * (ratio *", "trust * (0.5f * ratio *", "oracle gem image", "bias: that of the wider Gaussian alone"),
     Mutant("pixel_gem_agreed", BANK, ">= 0.5f) ? 1.0f", ">= 0.0f) ? 1.0f", "oracle gem_varying image", "stops: each decides alone"),
     Mutant("pixel_sbf_risk", RISK, "(2.0f * own_share - 1.0f)", "(own_share - 1.0f)", "oracle sbf image", "risk: half of the derivative"),
+    Mutant("pixel_shadow_finest", SHADOW, "blur > finest ? blur : finest", "blur", "oracle axis_aligned_varying image", "falloff: no least width"),
+    Mutant("pixel_shadow_normals", SHADOW, "turned <= step->least", "turned >= 0.0f * step->least", "oracle axis_aligned image", "weights: normals do not count"),
+    Mutant("pixel_shadow_albedo", SHADOW, "in[x] / (albedo[x] > step->least ? albedo[x] : step->least)", "in[x]", "oracle axis_aligned image", "albedo: put in twice"),
+    Mutant("pixel_shadow_least", QUANTITIES, "value < least)", "value > least)", "oracle axis_aligned image", "slopes: the largest"),
     Mutant("pixel_sbf_least", RISK, "variance > least ? variance : least", "variance + least", "oracle sbf image", "features: the least variance is added"),
 ]

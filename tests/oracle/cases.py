@@ -9,7 +9,7 @@ import numpy as np
 SETTINGS = {"profile": "thesis", "boxes": [9, 7, 5, 3], "noise": 0.02, "bins": 7, "seed": 1,
             "random": ["lens", "time"], "features": ["N", "P", "albedo"], "samples_factor": None, "max_samples": None,
             "position_scale": 20, "reject_second_hit": False, "bias_correction": False, "alpha_factor": 2, "redraws": 8,
-            "method": "rpf", "sigma_color": 30, "sigma_feature": 0.5, "damping": 0.45, "window": 21, "gamma": 0.2}
+            "method": "rpf", "sigma_color": 30, "sigma_feature": 0.5, "damping": 0.45, "window": 21, "gamma": 0.2, "bandwidth": 2}
 
 
 def uniform(rng, n):
@@ -206,6 +206,22 @@ def pixels(method, seed, **keywords):
     return (varying if keywords.pop("varying", False) else simple)(seed, method=method, **keywords)
 
 
+def cast_shadows(channels, rng, counts):
+    """A slope and a width for the third of the samples that is in the dark; the farther down, the wider."""
+    dark = channels["random.light.U"] + 0.3 * channels["random.light.V"] >= 0.35 + 0.05 * channels["film.Y"]
+    slope = np.where(dark, 0.05 + 0.02 * channels["film.Y"] + 0.1 * uniform(rng, len(dark)), 0.0)
+    channels["feature.penumbra.slope"], channels["feature.penumbra.width"] = slope, 2.0 * slope
+
+
+def shadows(seed, also=None, **keywords):
+    """A case of the axis-aligned filter; also(channels, rng, counts) edits it further."""
+    def change(channels, rng, counts):
+        cast_shadows(channels, rng, counts)
+        if also:
+            also(channels, rng, counts)
+    return pixels("axis-aligned", seed, change=change, **{"features": ["N", "P", "albedo", "penumbra"], **keywords})
+
+
 PIXEL_CASES = {
     "nlm": lambda: pixels("nlm", 70),
     "nlm_varying": lambda: pixels("nlm", 71, varying=True, damping=1.0),
@@ -225,6 +241,13 @@ PIXEL_CASES = {
     "sbf_missing": lambda: pixels("sbf", 93, change=lose_values, features=["N", "P", "albedo", "uv"]),
     "sbf_1e-30": lambda: pixels("sbf", 94, change=scaled_radiance(1e-30), features=[]),
     "sbf_second_hit": lambda: pixels("sbf", 95, width=13, height=3, features=["N", "P2", "N2"]),
+    "axis_aligned": lambda: shadows(100),
+    "axis_aligned_varying": lambda: shadows(101, varying=True, bandwidth=1),
+    "axis_aligned_gaps": lambda: shadows(102, spp=with_gaps(102), features=["P", "penumbra"]),
+    "axis_aligned_missing": lambda: shadows(103, also=lose_values, bandwidth=0.5),
+    "axis_aligned_one_sample": lambda: shadows(104, spp=1, width=40, height=3),
+    "axis_aligned_1e30": lambda: shadows(105, also=scaled_radiance(1e30), bandwidth=0.2),
+    "axis_aligned_far": lambda: shadows(106, also=move_world),
 }
 
 CASES = {

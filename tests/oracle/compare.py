@@ -293,7 +293,7 @@ def trace_of(tool, case, folder):
 
 def witness_of(method):
     """What compares a trace of a method with the oracle."""
-    if method in ("nlm", "gem", "sbf"):
+    if method in ("nlm", "gem", "sbf", "axis-aligned"):
         return pixel_methods.compare
     return compare if method == "rpf" else fixed_weights.compare
 

@@ -7,6 +7,7 @@ from report import Report
 from tolerances import TOLERANCE
 
 LEAST_SHARE, PATCH = 0.05, 3                     # (9.7); patches reach so far
+REACH, AROUND, CUT, TURN, LEAST_ALBEDO = 15, 5, 3, 0.0304, 1e-3   # section 9.4
 SIGMA = {"N": 0.8, "N2": 0.8, "albedo": 0.25}    # (9.16); all others 0.6
 
 
@@ -205,12 +206,89 @@ def stein_risk(pixels, case):
     return np.take_along_axis(np.stack(filtered, axis=2), choice[..., None, None], axis=2)[:, :, 0], np.zeros(pixels.shape)
 
 
+# ---------------------------------------------------------------- section 9.4
+
+def of_pixels(pixels, case, name, choose):
+    """choose(the values of a feature that a pixel knows), as a picture; 0 where there are none, or nowhere any that vary."""
+    names = pixels.frame.features
+    if name not in names:
+        return np.zeros(pixels.shape)
+    values = pixels.frame.values[:, pixels.frame.first_feature + names.index(name)]
+
+    def of(own):
+        there = values[own][~np.isnan(values[own])]
+        return choose(there) if len(there) else 0.0
+    return pixels.picture(of)[..., 0]
+
+
+def surface(pixels, case, group, unit=1.0):
+    """Means of a group's features, from the frame's mean on: [h, w, components]; and where all are known."""
+    names = [name for name in pixels.frame.features if scene_frame.group(name) == group]
+    known, parts = pixels.mask.copy(), []
+    for name in names:
+        values = pixels.frame.values[:, pixels.frame.first_feature + pixels.frame.features.index(name)]
+        has = of_pixels(pixels, case, name, lambda there: 1.0) > 0
+        parts.append(np.where(has, (of_pixels(pixels, case, name, np.mean) - np.nanmean(values)) / unit, 0))
+        known &= has
+    return np.stack(parts, axis=2) if parts else np.zeros((*pixels.shape, 0)), known
+
+
+def least_positive(values):
+    return values[values > 0].min() if (values > 0).any() else 0.0
+
+
+def falloff(pixels, case, position, known, unit):
+    """(9.21), (9.22): 1 / (2 beta^2), 0 where nothing is filtered."""
+    slope, width = (of_pixels(pixels, case, "penumbra." + name, least_positive) for name in ("slope", "width"))
+    width = width / unit
+    blocked = (width > 0).astype(float)
+    total = box(blocked, AROUND)
+    slope, width = (np.where(blocked > 0, v, quotient(box(blocked * v, AROUND), total)) for v in (slope, width))
+    there = known.astype(float)
+    sums, count = np.zeros(pixels.shape), np.zeros(pixels.shape)
+    for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+        beside = shifted(there, dx, dy)
+        sums += beside * ((shifted(position, dx, dy) - position) ** 2).sum(axis=2)
+        count += beside
+    beta2 = np.maximum(width ** 2, quotient(sums, count) * (1 + slope) ** 2) / (CUT * pixels.frame.settings["bandwidth"]) ** 2
+    return np.where(known & (width > 0), quotient(1, 2 * beta2), 0)
+
+
+def along(pixels, places, picture, rate, position, normal, known):
+    """(9.23), (9.24) along one axis; and how far normals near the limit can move it."""
+    total, sums, undecided = np.ones(pixels.shape), picture.copy(), np.zeros(pixels.shape)
+    for dx, dy in places:
+        weight = known * shifted(known.astype(float), dx, dy) * np.exp(-rate * ((shifted(position, dx, dy) - position) ** 2).sum(axis=2))
+        turned = ((shifted(normal, dx, dy) - normal) ** 2).sum(axis=2)
+        undecided += np.where(np.abs(turned - TURN) < TOLERANCE["pixel_near"], weight, 0)
+        weight = np.where((turned <= TURN) & (rate > 0), weight, 0)
+        total += weight
+        sums += weight[..., None] * shifted(picture, dx, dy)
+    return sums / total[..., None], undecided / total
+
+
+def axis_aligned(pixels, case):
+    unit = scene_frame.position_diagonal(case) or 1.0
+    (position, known), (normal, _) = surface(pixels, case, "P", unit), surface(pixels, case, "N")
+    rate, mean = falloff(pixels, case, position, known, unit), pixels.picture(pixels.mean)
+    albedo = np.stack([of_pixels(pixels, case, "albedo." + c, np.mean) if "albedo." + c in pixels.frame.features else pixels.mask
+                       for c in "RGB"], axis=2)
+    albedo = np.maximum(albedo, LEAST_ALBEDO)
+    steps = [i for i in range(-REACH, REACH + 1) if i]
+    rows, first = along(pixels, [(i, 0) for i in steps], mean / albedo, rate, position, normal, known)
+    both, second = along(pixels, [(0, i) for i in steps], rows, rate, position, normal, known)
+    near = first + second + sum(shifted(first, 0, i) for i in steps)          # what is undecided reaches along the columns
+    return np.where((rate > 0)[..., None], both * albedo, mean), near * albedo.max() / albedo.min()
+
+
 def compare(case, trace):
     """The Report on a trace of a case with a method of section 9."""
     frame = scene_frame.load_frame(case, [], trace["features"])
     report, pixels = Report(), Pixels(frame)
     method = frame.settings["method"]
-    expected, undecided = {"nlm": non_local_means, "gem": gaussian_bank}.get(method, lambda p: stein_risk(p, case))(pixels)
+    witness = {"nlm": non_local_means, "gem": gaussian_bank, "sbf": lambda p: stein_risk(p, case),
+               "axis-aligned": lambda p: axis_aligned(p, case)}[method]
+    expected, undecided = witness(pixels)
     largest = np.abs(frame.values[:, :3]).max()
     bound = (TOLERANCE["pixel_color"] + 2 * undecided[..., None]) * largest
     report.check("image", trace["image"], expected.reshape(-1, 3), np.broadcast_to(bound, expected.shape).reshape(-1, 3), "image")

@@ -35,6 +35,7 @@ rpf::Settings read_settings(const json& s) {
   settings.damping = s.at("damping");
   settings.window = s.at("window");
   settings.gamma = s.at("gamma");
+  settings.bandwidth = s.at("bandwidth");
   settings.profile = s.at("profile") == "paper" ? rpf::Profile::paper : rpf::Profile::thesis;
   settings.box_widths = s.at("boxes").get<std::vector<int>>();
   settings.noise = s.at("noise");

@@ -139,6 +139,17 @@ void add_channel(SampleBuffer& samples, const std::string& slot, float value) {
   samples = wider;
 }
 
+void cast_shadows(SampleBuffer& samples) {
+  Dice dice(77);
+  for (const char* slot : {"feature.penumbra.slope", "feature.penumbra.width"}) add_channel(samples, slot, 0);
+  for (std::size_t i = 0; i < samples.sample_count(); ++i) {
+    if (dice() < 0.7F) continue;
+    const float slope = 0.1F + dice();
+    value_of(samples, i, "feature.penumbra.slope") = slope;
+    value_of(samples, i, "feature.penumbra.width") = 2 * slope;
+  }
+}
+
 std::vector<float> part_of(const Image& image, const Window& part) {
   std::vector<float> pixels;
   for (int y = 0; y < part.height; ++y) {

@@ -53,6 +53,9 @@ void scale_radiance(SampleBuffer& samples, float factor);
 /// Adds a channel behind the others, with one value for all samples.
 void add_channel(SampleBuffer& samples, const std::string& slot, float value);
 
+/// Adds feature.penumbra.slope and .width: something stands before the light of every third sample or so.
+void cast_shadows(SampleBuffer& samples);
+
 /// The pixels of a part of an image, in the coordinates of its data window.
 std::vector<float> part_of(const Image& image, const Window& part);
 

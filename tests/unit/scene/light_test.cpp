@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/integrator.h"
+#include "scene/penumbra.h"
 #include "scene/random.h"
 #include "scene/staging.h"
 #include "scene/warp.h"
@@ -246,6 +247,25 @@ TEST(Solids, AreSeenWhereTheyAreAtTheTimeOfTheRay) {
     EXPECT_TRUE(tracer.blocked({{-2 + 4 * time, 0, 0}, {0, 0, -1}, time}, 10));
     EXPECT_FALSE(tracer.blocked({{-2 + 4 * time, 0, 0}, {0, 0, -1}, time}, 3.9F));
   }
+}
+
+// Similar triangles: a plate at a quarter of the way up to a light of edge 2 blurs its edge over a third of the light.
+TEST(Penumbras, AreAsWideAsSimilarTrianglesSay) {
+  World world;
+  const std::uint32_t white = world.add(plain({1, 1, 1}));
+  world.add(Rectangle{{-9, 0, -9}, {0, 0, 18}, {18, 0, 0}}, white);
+  world.add(Rectangle{{-9, 1, -9}, {0, 0, 18}, {8, 0, 0}}, white);  // ends at x = -1
+  add_ceiling_light(world, {0, 4, 0}, 2, {1, 1, 1});
+  const Tracer tracer(world);
+  const Ray ray = {{0, 5, 0}, {0, -1, 0}, 0};
+  const auto seen = [&](float x, const Vec3& normal) {
+    return penumbra_of(world, tracer, ray, {true, {x, 0, 0}, normal, {1, 1, 1}, {}}, {0.3F, 0.8F});
+  };
+  const Penumbra dark = seen(-5, {0, 1, 0});
+  EXPECT_NEAR(dark.slope, 1.0F / 3, 1e-5F);
+  EXPECT_NEAR(dark.width, 1.0F / 3, 1e-5F);
+  EXPECT_EQ(seen(3, {0, 1, 0}).slope, 0) << "nothing stands before the light";
+  EXPECT_EQ(seen(-5, {1, 0, 0}).slope, seen(-5, {-1, 0, 0}).slope == 0 ? dark.slope : 0) << "one side faces it";
 }
 
 }  // namespace

@@ -56,6 +56,19 @@ bool is_zero(const SampleBuffer& samples, const std::string& slot) {
 
 class EveryScene : public testing::TestWithParam<std::string> {};
 
+TEST_P(EveryScene, IsTheSameWithPenumbras) {
+  SceneOptions options = small();
+  const SampleBuffer plain = render_scene(GetParam(), options);
+  options.penumbra = true;
+  const SampleBuffer more = render_scene(GetParam(), options);
+  for (const std::string& slot : plain.layout.slots)
+    for (std::size_t i = 0; i < plain.sample_count(); ++i) {
+      const float a = plain.record(i)[*plain.layout.find(slot)], b = more.record(i)[*more.layout.find(slot)];
+      ASSERT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << slot;
+    }
+  EXPECT_EQ(is_zero(more, "feature.penumbra.slope"), is_zero(more, "feature.penumbra.width"));
+}
+
 TEST_P(EveryScene, HasFiniteRadianceThatIsNotNegative) {
   const SampleBuffer samples = render_scene(GetParam(), small());
   samples.validate();
