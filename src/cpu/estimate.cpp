@@ -74,9 +74,9 @@ void Estimate::head(int x, int y, uint first, uint count, float* out) const {
   dense(network_.head(), last_.at(x, y), static_cast<int>(first), static_cast<int>(count), out);
 }
 
-void Estimate::for_rows_of_samples(double row_work, const std::function<void(int)>& row) {
+void Estimate::for_rows_of_samples(double row_work, bool again, const std::function<void(int)>& row) {
   for (int first = 0, end = 0; first < window_.height; first = end) {
-    end = frame_.bring(window_.y + first, window_.y + window_.height) - window_.y;
+    end = frame_.bring(window_.y + first, window_.y + window_.height, again) - window_.y;
     for_rows_(end - first, row_work, [&](int y) { row(first + y); });
   }
 }
@@ -86,7 +86,7 @@ Field Estimate::see_pixels() {
   Field entered(window_.width, window_.height, static_cast<std::size_t>(enter.outputs));
   Field seen(stages_ ? window_.width : 0, stages_ ? window_.height : 0, static_cast<std::size_t>(enter.inputs));
   const double samples = static_cast<double>(first_sample_.back()) / window_.height;
-  for_rows_of_samples(samples * seeing(network_) + window_.width * products(enter), [&](int y) {
+  for_rows_of_samples(samples * seeing(network_) + window_.width * products(enter), true, [&](int y) {
     SampleNetwork network(frame_, plan_);
     std::vector<float> values(static_cast<std::size_t>(enter.inputs));
     float albedo[RPF_ALBEDO_SUMS];
@@ -169,7 +169,7 @@ void Estimate::sum_samples() {
   sums_ = Rows(window_.width, window_.height, kernel::rpf_sums(static_cast<uint>(plan_.carried)));
   if (stages_) sample_weights_.resize(first_sample_.back());
   const double samples = static_cast<double>(first_sample_.back()) / window_.height;
-  for_rows_of_samples(samples * weighing(network_), [&](int y) {
+  for_rows_of_samples(samples * weighing(network_), false, [&](int y) {
     SampleNetwork network(frame_, plan_);
     with_fma([&] {
       for (int x = 0; x < window_.width; ++x) sum_pixel(x, y, network);

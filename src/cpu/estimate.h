@@ -40,7 +40,7 @@ class Estimate {
   void head(int x, int y, kernel::uint first, kernel::uint count, float* out) const;
 
   /// for_rows_ over all rows, of stages that read samples.
-  void for_rows_of_samples(double row_work, const std::function<void(int)>& row);
+  void for_rows_of_samples(double row_work, bool again, const std::function<void(int)>& row);
   Field see_pixels();
   Field convolved(const NetworkLayer& layer, const std::vector<Source>& sources, int width, int height);
   Field halved(const Field& in);

@@ -22,8 +22,8 @@ struct Frame {
 
   const float* record(std::size_t sample) const { return records.data() + (sample - first_record) * variables; }
   float weight(std::size_t sample) const { return weights[sample - first_record]; }
-  /// To be called before samples of rows are read. Returns the end of the rows that are there, at most `end`.
-  int bring(int first, int end) const { return supply == nullptr ? end : supply->bring(first, end); }
+  /// To be called before samples of rows are read: RowSupply::bring(). Returns the end of the rows that are there.
+  int bring(int first, int end, bool again) const { return supply == nullptr ? end : supply->bring(first, end, again); }
   std::uint32_t samples(std::size_t pixel) const { return first_sample[pixel + 1] - first_sample[pixel]; }
   std::size_t sample_count() const { return first_sample.back(); }
 };

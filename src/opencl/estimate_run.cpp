@@ -88,7 +88,7 @@ void EstimateRun::run_embed(const EstimateStep& step, int first, int end) {
 }
 
 void EstimateRun::run_pass(const EstimateStep& step, int first, int end) {
-  const DeviceGrid &weights = grid(step.in[0]), &in = grid(step.in[1]), &out = grid(step.out.front());
+  const DeviceGrid &in = grid(step.in[0]), &weights = grid(step.in[1]), &out = grid(step.out.front());
   const kernel::rpf_network_pass pass{area(step, first, end),
                                       weights.rows,
                                       in.rows,

@@ -123,7 +123,8 @@ class Builder {
       const int terms = network_.embedding + RPF_GUIDES, kept = out_.grids[static_cast<std::size_t>(values)].values;
       const int weights =
           make(Kind::embed, pass, {head(last, pass), guides_}, planes("", terms + 1), 0, 10.0 * window_.width * terms);
-      values = make(Kind::pass, pass, {weights, values}, planes("pass" + std::to_string(pass), kept), 0,
+      // Values first: they come from the samples, which may be gone by the time that all weights are there.
+      values = make(Kind::pass, pass, {values, weights}, planes("pass" + std::to_string(pass), kept), 0,
                     25.0 * window_.width * (terms + 15 + kept));
     }
     return values;

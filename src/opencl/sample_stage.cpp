@@ -102,11 +102,11 @@ SampleStage::Chunk SampleStage::chunk(int first, int end) const {
       shared(frame.first_sample.data() + pixel(row, 0), pixel(end_row, 0) - pixel(row, 0) + 1)};
 }
 
-void SampleStage::for_chunks(int first, int end, const Progress& progress,
+void SampleStage::for_chunks(int first, int end, bool again, const Progress& progress,
                              const std::function<void(const Chunk&)>& body) {
   const int width = job_.window.width, pixels = (end - first) * width;
   for (int row = first, there = first; row < end; row = there) {
-    there = bring(row, end);
+    there = bring(row, end, again);
     for (int p = row * width; p < there * width;) {
       const Chunk chunk = this->chunk(p, end_of_chunk(p, there * width));
       reserve(chunk.samples);
@@ -117,10 +117,10 @@ void SampleStage::for_chunks(int first, int end, const Progress& progress,
   }
 }
 
-int SampleStage::bring(int first, int end) {
+int SampleStage::bring(int first, int end, bool again) {
   if (job_.frame.supply == nullptr) return end;
   session_.finish();  // what was launched reads rows that may be gone then
-  return job_.frame.bring(job_.window.y + first, job_.window.y + end) - job_.window.y;
+  return job_.frame.bring(job_.window.y + first, job_.window.y + end, again) - job_.window.y;
 }
 
 void SampleStage::reserve(std::size_t samples) {
@@ -159,7 +159,7 @@ void SampleStage::launch_on_samples(cl::Kernel& kernel, const Chunk& chunk, cons
 
 void SampleStage::see(int first, int end, const DeviceGrid& pixel, const DeviceGrid& guides, const DeviceGrid& albedo,
                       const Progress& progress) {
-  for_chunks(first, end, progress, [&](const Chunk& chunk) {
+  for_chunks(first, end, true, progress, [&](const Chunk& chunk) {
     launch_on_samples(see_samples_, chunk);
     launch(see_pixels_, chunk.records, guide_columns_, seen_, features_, chunk.first_sample, pixel.buffer,
            guides.buffer, albedo.buffer, chunk.launch, pixel.rows, guides.rows, albedo.rows, pixel.stored);
@@ -169,7 +169,7 @@ void SampleStage::see(int first, int end, const DeviceGrid& pixel, const DeviceG
 
 void SampleStage::sum(int first, int end, const DeviceGrid& heads, const DeviceGrid& sums, const Progress& progress) {
   const DeviceLayer& weight1 = program_.layer(job_.plan.network->layers.size() - 2);
-  for_chunks(first, end, progress, [&](const Chunk& chunk) {
+  for_chunks(first, end, false, progress, [&](const Chunk& chunk) {
     launch_on_samples(weigh_samples_, chunk, heads.buffer, chunk.first_sample, weight1.weights, weight1.bias,
                       program_.last_weights(), chunk.weights, weighed_, weights_,
                       rows_of_samples(weight1, chunk.samples), heads.rows, heads.stored);

@@ -59,10 +59,11 @@ class SampleStage {
   /// The end of the chunk that begins with a pixel: its samples lie side by side in the frame.
   int end_of_chunk(int first, int end) const;
   Chunk chunk(int first, int end) const;
-  /// Has the samples of rows first .. end - 1 of the window be there, or of the first of these. Returns the end of
-  /// those.
-  int bring(int first, int end);
-  void for_chunks(int first, int end, const Progress& progress, const std::function<void(const Chunk&)>& body);
+  /// Has the samples of rows first .. end - 1 of the window be there, or of the first of these: Frame::bring().
+  int bring(int first, int end, bool again);
+  /// `again`: whether the samples will be asked for once more.
+  void for_chunks(int first, int end, bool again, const Progress& progress,
+                  const std::function<void(const Chunk&)>& body);
   void reserve(std::size_t samples);
   kernel::rpf_layer rows_of_samples(const DeviceLayer& layer, std::size_t samples) const;
   /// A kernel that begins with what is computed of a chunk's samples, and their features.

@@ -48,9 +48,10 @@ StreamedFrame::Block& StreamedFrame::block_of(int row) {
   return *std::lower_bound(blocks_.begin(), blocks_.end(), row, ends_before);
 }
 
-int StreamedFrame::bring(int first, int end) {
+int StreamedFrame::bring(int first, int end, bool again) {
   Block& block = block_of(first);
   block.latest_use = ++uses_;
+  block.is_done = !again && block.end <= end;
   if (&block != current_) {
     if (current_ != nullptr) exchange_with_frame(*current_);
     current_ = nullptr;
@@ -70,23 +71,27 @@ void StreamedFrame::exchange_with_frame(Block& block) {
   frame.first_record = block.first_record;
 }
 
-/// Those used longest ago go first.
-void StreamedFrame::make_room(std::uint64_t bytes) {
+/// Rows are asked for from the first on, and again from the first on. So those go that nobody will ask for, the one
+/// used longest ago first, and then those that are asked for last.
+void StreamedFrame::make_room() {
+  const auto goes_before = [](const Block& a, const Block& b) {
+    if (a.is_done != b.is_done) return a.is_done;
+    return a.is_done ? a.latest_use < b.latest_use : a.first > b.first;
+  };
   std::uint64_t kept = 0;
   for (const Block& block : blocks_) kept += block.bytes();
-  while (kept + bytes > memory_) {
-    Block* oldest = nullptr;
+  while (kept > memory_) {
+    Block* next = nullptr;
     for (Block& block : blocks_)
-      if (block.bytes() > 0 && (oldest == nullptr || block.latest_use < oldest->latest_use)) oldest = &block;
-    if (oldest == nullptr) return;
-    kept -= oldest->bytes();
-    for (std::vector<float>* values : {&oldest->records, &oldest->weights, &oldest->others})
+      if (block.bytes() > 0 && (next == nullptr || goes_before(block, *next))) next = &block;
+    kept -= next->bytes();
+    for (std::vector<float>* values : {&next->records, &next->weights, &next->others})
       std::vector<float>().swap(*values);  // assigning an empty one would keep the memory
   }
 }
 
 void StreamedFrame::read(Block& block) {
-  make_room(block_bytes(rows_, block.first, block.end));
+  make_room();
   SampleBuffer samples = rows_.read(block.first, block.end);
   clean_again(samples, find_columns(rows_.frame(), settings_.clamp_infinite), settings_.clamp_negative);
   PreparedFrame part;

@@ -20,7 +20,7 @@ class StreamedFrame : public RowSupply {
   StreamedFrame(SampleRows& rows, const ObservedFindings& found, const Settings& settings, const EstimatePlan& plan,
                 PreparedFrame& prepared, std::uint64_t memory, std::uint64_t at_once);
 
-  int bring(int first, int end) override;
+  int bring(int first, int end, bool again) override;
 
   /// energy_of_means() over the crop, of the rows that were brought: all of them, from the first on.
   double plain_energy() const { return plain_energy_; }
@@ -35,13 +35,14 @@ class StreamedFrame : public RowSupply {
     std::size_t first_record = 0;
     std::vector<float> records, weights, others;
     std::uint64_t latest_use = 0;
+    bool is_done = false;  ///< nobody will ask for it again
 
     std::uint64_t bytes() const { return (records.size() + weights.size() + others.size()) * sizeof(float); }
   };
 
   Block& block_of(int row);
   void exchange_with_frame(Block& block);
-  void make_room(std::uint64_t bytes);
+  void make_room();
   void read(Block& block);
   void add_energy(const Block& block);
 
