@@ -84,6 +84,7 @@ void StreamedFrame::make_room() {
     Block* next = nullptr;
     for (Block& block : blocks_)
       if (block.bytes() > 0 && (next == nullptr || goes_before(block, *next))) next = &block;
+    if (next == nullptr) return;
     kept -= next->bytes();
     for (std::vector<float>* values : {&next->records, &next->weights, &next->others})
       std::vector<float>().swap(*values);  // assigning an empty one would keep the memory
