@@ -3,12 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "rpf/filter.h"
 #include "rpf/image.h"
+#include "rpf/rows.h"
 #include "rpf/samples.h"
 
 namespace rpf {
@@ -60,6 +62,10 @@ std::vector<SceneInfo> scenes();
 /// hit) is NaN. Metadata: rpf:seed, rpf:renderer, rpf:scene, rpf:sampler. The same options give the same bits. Throws
 /// Error(usage) for an unknown name, naming those there are, or an option that cannot be; Error(cancelled).
 SampleBuffer render_scene(const std::string& name, const SceneOptions& options, const Control& control = {});
+
+/// The same samples, rendered when their rows are read: a frame larger than memory, for write_sample_rows(). Throws
+/// Error(usage).
+std::unique_ptr<SampleRows> open_scene_rows(const std::string& name, const SceneOptions& options);
 
 /// The attribute of a reference that tells its own relMSE.
 constexpr const char* residual_attribute = "rpf:residualRelMSE";

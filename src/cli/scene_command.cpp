@@ -12,6 +12,7 @@
 #include "rpf/error.h"
 #include "rpf/io.h"
 #include "rpf/outputs.h"
+#include "rpf/rows.h"
 #include "rpf/scene.h"
 
 namespace rpf::cli {
@@ -72,25 +73,27 @@ void write_reference_image(const Options& o, const SceneOptions& scene) {
 }
 
 /// More than the machine has: refused before anything is rendered.
-void check_budget(const Options& o, const SceneOptions& scene) {
-  const double slots = scene.penumbra ? 35 : 33;
-  const double pixels = static_cast<double>(scene.width) * scene.height;
-  const double need_mb = pixels * scene.samples * slots * sizeof(float) / megabyte;
+void check_budget(const Options& o, std::uint64_t need) {
+  const double need_mb = static_cast<double>(need) / megabyte;
   const double limit_mb = static_cast<double>(memory_limit(o.max_memory_mb)) / megabyte;
   if (need_mb > limit_mb)
-    throw Error(ErrorKind::memory, fmt::format("scene: the samples take {:.0f} MB of memory, the limit is {:.0f} MB; "
-                                               "choose a smaller --spp or --size",
-                                               need_mb, limit_mb));
+    throw Error(ErrorKind::memory,
+                fmt::format("scene: rendering takes {:.0f} MB of memory, the limit is {:.0f} MB; choose a "
+                            "smaller --spp or --size",
+                            need_mb, limit_mb));
 }
 
 void write_sample_file(const Options& o, const SceneOptions& scene) {
-  check_budget(o, scene);
-  const SampleBuffer samples =
-      with_progress(progress_mode(o), [&](const Control& c) { return render_scene(o.name, scene, c); });
-  const SignalGuard guard;
-  write_samples(o.output, samples);
+  const std::uint64_t counts =
+      sizeof(std::uint32_t) * static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
+  check_budget(o, counts);
+  const auto rows = open_scene_rows(o.name, scene);
+  check_budget(o, counts + write_rows_memory(*rows));
+  with_progress(progress_mode(o), [&](const Control& c) { write_sample_rows(o.output, *rows, {}, c); });
   if (o.quiet) return;
-  print("{}: {}x{} pixels, {} samples\n", o.output, scene.width, scene.height, samples.sample_count());
+  std::uint64_t samples = 0;
+  for (int row = 0; row < scene.height; ++row) samples += rows->row_samples(row);
+  print("{}: {}x{} pixels, {} samples\n", o.output, scene.width, scene.height, samples);
 }
 
 int run(const Options& o) {

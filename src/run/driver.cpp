@@ -112,17 +112,18 @@ class Run {
     plan_ = make_plan(prepared_.facts, settings);
   }
 
-  /// The learned estimator on rows that are read when they are needed. `first_sample`: of the frame, after cleaning.
-  Run(SampleRows& rows, std::vector<std::uint32_t> first_sample, const ObservedFindings& found,
-      const Settings& settings, const Control& control, std::uint64_t at_once)
+  /// The learned estimator on rows that are read when they are needed.
+  Run(SampleRows& rows, ScannedRows scanned, const Settings& settings, const Control& control, std::uint64_t at_once)
       : Run(settings, control, rows.frame()) {
-    raw_ = streamed_size(rows, found.cleaned.most_samples);
+    found_ = std::move(std::get<ObservedFindings>(scanned.facts));
+    raw_ = streamed_size(rows, found_.cleaned.most_samples);
     backend_ = make_backend(settings);
-    take(observe_frame(rows.frame(), found, settings, find_network(settings.model)));
-    prepared_.frame.first_sample = std::move(first_sample);
+    take(observe_frame(rows.frame(), found_, settings, find_network(settings.model)));
+    prepared_.frame.first_sample = std::move(scanned.first_sample);
     const std::uint64_t need = bands().bytes;
     const std::uint64_t left = settings.max_memory > need ? settings.max_memory - need : 0;
-    stream_ = std::make_unique<StreamedFrame>(rows, found, settings, estimate_plan_, prepared_, left / 4 * 3, at_once);
+    stream_ = std::make_unique<StreamedFrame>(rows, found_, settings, estimate_plan_, prepared_,
+                                              std::move(scanned.kept), left / 4 * 3, at_once);
   }
 
   Result finish(const PassObserver& before_pass) {
@@ -268,6 +269,7 @@ class Run {
   Plan plan_;
   EstimatePlan estimate_plan_;
   PixelPlan pixel_plan_;
+  ObservedFindings found_;
   std::unique_ptr<StreamedFrame> stream_;  ///< where samples are read when they are needed
   std::unique_ptr<Backend> backend_;       ///< last: it refers to frame and plan
 };
@@ -316,9 +318,9 @@ Result run_rows(SampleBuffer rows, const SampleBuffer& frame, const RowFacts& fa
   return Run(std::move(rows), frame, facts, settings, control).finish({});
 }
 
-Result run_streamed(SampleRows& rows, std::vector<std::uint32_t> first_sample, const ObservedFindings& found,
-                    const Settings& settings, const Control& control, std::uint64_t at_once) {
-  return Run(rows, std::move(first_sample), found, settings, control, at_once).finish({});
+Result run_streamed(SampleRows& rows, ScannedRows scanned, const Settings& settings, const Control& control,
+                    std::uint64_t at_once) {
+  return Run(rows, std::move(scanned), settings, control, at_once).finish({});
 }
 
 Result filter(SampleBuffer samples, const Settings& settings, const Control& control) {

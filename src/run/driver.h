@@ -25,9 +25,9 @@ Result run_rows(SampleBuffer rows, const SampleBuffer& frame, const RowFacts& fa
                 const Control& control);
 
 /// The learned estimator on rows that are read when they are needed, in as little memory as predict_rows_memory() says.
-/// `first_sample`: of the frame after cleaning, as far as rows are needed.
-Result run_streamed(SampleRows& rows, std::vector<std::uint32_t> first_sample, const ObservedFindings& found,
-                    const Settings& settings, const Control& control, std::uint64_t at_once = bytes_at_once);
+/// `scanned`: of the learned method, as far as rows are needed.
+Result run_streamed(SampleRows& rows, ScannedRows scanned, const Settings& settings, const Control& control,
+                    std::uint64_t at_once = bytes_at_once);
 
 /// What a report says beside the passes: backend, modeled channels, notes about the input.
 void describe_input(const Backend& backend, const PreparedFrame& prepared, Report& report);

@@ -41,14 +41,38 @@ void count(const SampleBuffer& part, std::vector<std::uint32_t>& first_sample) {
     first_sample.push_back(before + part.first_sample[pixel]);
 }
 
-ObservedFindings find_observed(SampleRows& rows, const Settings& settings, ProgressMeter& meter, std::uint64_t at_once,
-                               std::vector<std::uint32_t>& first_sample) {
+/// Keeps the first rows that it is given, as the walk says.
+class Keeper {
+ public:
+  Keeper(const RowWalk& walk, const SampleBuffer& frame, std::vector<SampleBuffer>& kept)
+      : walk_(walk), top_(frame.data_window.y), left_(walk.kept_bytes), kept_(kept) {}
+
+  void offer(SampleBuffer& part) {
+    const int first = part.data_window.y - top_, end = first + part.data_window.height;
+    const std::uint64_t bytes = part.values.capacity() * sizeof(float);
+    if (end <= walk_.first || walk_.end <= first) return;
+    left_ = bytes <= left_ ? left_ - bytes : 0;  // what comes later is needed later
+    if (left_ > 0) kept_.push_back(std::move(part));
+  }
+
+ private:
+  const RowWalk& walk_;
+  int top_;
+  std::uint64_t left_;
+  std::vector<SampleBuffer>& kept_;
+};
+
+ObservedFindings find_observed(SampleRows& rows, const Settings& settings, ProgressMeter& meter, const RowWalk& walk,
+                               ScannedRows& scanned) {
+  const std::uint64_t at_once = walk.at_once;
   ObserveScan scan(rows.frame(), settings);
-  first_sample = {0};
+  std::vector<std::uint32_t>& first_sample = scanned.first_sample = {0};
   first_sample.reserve(rows.frame().data_window.pixel_count() + 1);
+  Keeper keeper(walk, rows.frame(), scanned.kept);
   const auto add = [&](SampleBuffer& part) {
     scan.add(part);
     count(part, first_sample);
+    keeper.offer(part);
     return true;
   };
   for_all_rows(rows, at_once, add, [&](double part) { meter.add_part(part); });
@@ -102,7 +126,7 @@ int end_at_once(const SampleRows& rows, int first, std::uint64_t at_once) {
   return end;
 }
 
-ScannedRows scan_rows(SampleRows& rows, Settings settings, const Control& control, std::uint64_t at_once) {
+ScannedRows scan_rows(SampleRows& rows, Settings settings, const Control& control, const RowWalk& walk) {
   validate(settings);
   if (filters_pixels(settings.method))
     throw Error(ErrorKind::usage,
@@ -113,26 +137,32 @@ ScannedRows scan_rows(SampleRows& rows, Settings settings, const Control& contro
   ProgressMeter meter(control);
   ScannedRows scanned;
   if (settings.method == Method::learned)
-    scanned.facts = find_observed(rows, settings, meter, at_once, scanned.first_sample);
+    scanned.facts = find_observed(rows, settings, meter, walk, scanned);
   else
-    scanned.facts = find_frame(rows, settings, meter, at_once);
+    scanned.facts = find_frame(rows, settings, meter, walk.at_once);
   return scanned;
 }
 
-std::vector<std::uint32_t> count_rows(SampleRows& rows, int first, int end, const CleanReport& cleaned,
-                                      const Settings& settings) {
+void count_rows(SampleRows& rows, const RowWalk& walk, const CleanReport& cleaned, const Settings& settings,
+                ScannedRows& scanned) {
+  const Window& window = rows.frame().data_window;
   const Columns columns = find_columns(rows.frame(), settings.clamp_infinite);
-  std::vector<std::uint32_t> first_sample = {0};
-  for (int row = first, next = first; row < end; row = next) {
-    next = std::min(end_at_once(rows, row, bytes_at_once), end);
+  std::vector<std::uint32_t> counted = {0};
+  Keeper keeper(walk, rows.frame(), scanned.kept);
+  int first = 0, end = 0;  // of what is read: as where all rows are
+  for (int row = 0, next = 0; row < walk.end; row = next) {
+    next = end_at_once(rows, row, walk.at_once);
+    if (next <= walk.first) continue;
+    if (end == 0) first = row;
+    end = next;
     SampleBuffer part = rows.read(row, next);
     clean_again(part, columns, settings.clamp_negative);
-    count(part, first_sample);
+    count(part, counted);
+    keeper.offer(part);
   }
-  if (!cleaned.has_color) std::fill(first_sample.begin(), first_sample.end(), 0U);
-  const Window& window = rows.frame().data_window;
-  return first_sample_in_frame(std::move(first_sample), {window.x, window.y + first, window.width, end - first},
-                               window);
+  if (!cleaned.has_color) std::fill(counted.begin(), counted.end(), 0U);
+  scanned.first_sample =
+      first_sample_in_frame(std::move(counted), {window.x, window.y + first, window.width, end - first}, window);
 }
 
 std::uint64_t rows_need(const SampleRows& rows, int first, int end, std::uint32_t most_samples,

@@ -19,18 +19,28 @@ std::uint64_t row_bytes(const SampleRows& rows, int row);
 /// The end of the rows from `first` on, at least one, that are read at once.
 int end_at_once(const SampleRows& rows, int first, std::uint64_t at_once = bytes_at_once);
 
-struct ScannedRows {
-  RowFacts facts;
-  std::vector<std::uint32_t> first_sample;  ///< of the frame after cleaning; of the learned method only
+/// How rows are gone through: at most `at_once` bytes at a time, or one row; from the first on so many bytes of those
+/// that reach into first .. end - 1 stay in memory.
+struct RowWalk {
+  std::uint64_t at_once = bytes_at_once;
+  int first = 0, end = 0;
+  std::uint64_t kept_bytes = 0;
 };
 
-/// Whatever the crop of the settings. Reads rows of at most `at_once` bytes, or one row. Throws as filter() does.
-ScannedRows scan_rows(SampleRows& rows, Settings settings, const Control& control,
-                      std::uint64_t at_once = bytes_at_once);
+struct ScannedRows {
+  RowFacts facts;
+  // Of the learned method only:
+  std::vector<std::uint32_t> first_sample;  ///< of the frame after cleaning
+  std::vector<SampleBuffer> kept;           ///< cleaned rows, ascending
+};
 
-/// first_sample of the frame after cleaning, where only these rows are looked at: the others are as without samples.
-std::vector<std::uint32_t> count_rows(SampleRows& rows, int first, int end, const CleanReport& cleaned,
-                                      const Settings& settings);
+/// Whatever the crop of the settings. Throws as filter() does.
+ScannedRows scan_rows(SampleRows& rows, Settings settings, const Control& control, const RowWalk& walk = {});
+
+/// Fills in first_sample and what is kept, where only the rows of the walk are looked at: the others, but for those
+/// that are read along with them, are as without samples.
+void count_rows(SampleRows& rows, const RowWalk& walk, const CleanReport& cleaned, const Settings& settings,
+                ScannedRows& scanned);
 
 /// Bytes of filtering the rows first .. end - 1 at once.
 std::uint64_t rows_need(const SampleRows& rows, int first, int end, std::uint32_t most_samples,

@@ -37,6 +37,20 @@ std::pair<int, int> rows_around(const Window& crop, const SampleBuffer& frame, c
   return {std::max(y - reach, 0), std::min(y + crop.height + reach, height)};
 }
 
+/// Keeps rows of the first walk for the second one where all of them would not fit for certain.
+RowWalk walk_of(const SampleRows& rows, int first, int end, const Settings& settings) {
+  RowWalk walk;
+  walk.first = first;
+  walk.end = end;
+  if (settings.method != Method::learned || settings.max_memory == 0 ||
+      rows_need(rows, first, end, 0, settings) <= settings.max_memory)
+    return walk;
+  constexpr std::uint64_t per_pixel = 64;  // what is known of each meanwhile
+  const std::uint64_t need = per_pixel * rows.frame().data_window.pixel_count() + 3 * walk.at_once;
+  walk.kept_bytes = settings.max_memory > need ? (settings.max_memory - need) / 4 * 3 : 0;
+  return walk;
+}
+
 /// Refuses what is too much even so.
 void check_streamed(const SampleRows& rows, std::uint32_t most_samples, const Settings& settings) {
   constexpr double megabyte = 1 << 20;
@@ -60,23 +74,25 @@ Result filter_rows(SampleRows& rows, const Settings& settings, const std::string
   const SampleBuffer& frame = rows.frame();
   const Window crop = settings.crop.value_or(frame.data_window);
   check_crop(crop, frame.data_window);
+  const auto [first, end] = rows_around(crop, frame, settings);
+  const RowWalk walk = walk_of(rows, first, end, settings);
   ScannedRows scanned;
   if (facts.empty())
-    scanned = scan_rows(rows, settings, control);
+    scanned = scan_rows(rows, settings, control, walk);
   else
     scanned.facts = facts_of(facts, settings.method);
-  const auto [first, end] = rows_around(crop, frame, settings);
   const CleanReport& cleaned = std::visit([](const auto& f) -> const CleanReport& { return f.cleaned; }, scanned.facts);
   const auto* observed = std::get_if<ObservedFindings>(&scanned.facts);
   const std::uint64_t need = rows_need(rows, first, end, cleaned.most_samples, settings);
   if (observed == nullptr || settings.max_memory == 0 || need <= settings.max_memory) {
     check_rows(rows, first, end, cleaned.most_samples, settings);
     scanned.first_sample = {};
+    scanned.kept = {};
     return run_rows(rows.read(first, end), frame, scanned.facts, settings, control);
   }
   check_streamed(rows, cleaned.most_samples, settings);
-  if (scanned.first_sample.empty()) scanned.first_sample = count_rows(rows, first, end, cleaned, settings);
-  return run_streamed(rows, std::move(scanned.first_sample), *observed, settings, control);
+  if (scanned.first_sample.empty()) count_rows(rows, walk, cleaned, settings, scanned);
+  return run_streamed(rows, std::move(scanned), settings, control);
 }
 
 RowsMemory predict_rows_memory(const SampleRows& rows, std::uint32_t max_samples_per_pixel, const Settings& settings) {

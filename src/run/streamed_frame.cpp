@@ -20,8 +20,8 @@ std::uint64_t block_bytes(const SampleRows& rows, int first, int end) {
 }  // namespace
 
 StreamedFrame::StreamedFrame(SampleRows& rows, const ObservedFindings& found, const Settings& settings,
-                             const EstimatePlan& plan, PreparedFrame& prepared, std::uint64_t memory,
-                             std::uint64_t at_once)
+                             const EstimatePlan& plan, PreparedFrame& prepared, std::vector<SampleBuffer> kept,
+                             std::uint64_t memory, std::uint64_t at_once)
     : rows_(rows), found_(found), settings_(settings), plan_(plan), prepared_(prepared), memory_(memory) {
   for (int first = 0; first < plan.height; first = blocks_.back().end) {
     Block block;
@@ -31,7 +31,15 @@ StreamedFrame::StreamedFrame(SampleRows& rows, const ObservedFindings& found, co
         prepared.frame.first_sample[static_cast<std::size_t>(first) * static_cast<std::size_t>(plan.width)];
     blocks_.push_back(std::move(block));
   }
+  for (SampleBuffer& part : kept) block_of(part.data_window.y - rows.frame().data_window.y).cleaned = std::move(part);
+  make_room();
   prepared.frame.supply = this;
+}
+
+void StreamedFrame::Block::forget() {
+  is_there = false;
+  for (std::vector<float>* values : {&records, &weights, &others, &cleaned.values})
+    std::vector<float>().swap(*values);  // assigning an empty one would keep the memory
 }
 
 std::uint64_t StreamedFrame::least_bytes(const SampleRows& rows) {
@@ -55,7 +63,7 @@ int StreamedFrame::bring(int first, int end, bool again) {
   if (&block != current_) {
     if (current_ != nullptr) exchange_with_frame(*current_);
     current_ = nullptr;
-    if (block.records.empty()) read(block);
+    if (!block.is_there) read(block);
     exchange_with_frame(block);
     current_ = &block;
     add_energy(block);
@@ -86,15 +94,20 @@ void StreamedFrame::make_room() {
       if (block.bytes() > 0 && (next == nullptr || goes_before(block, *next))) next = &block;
     if (next == nullptr) return;
     kept -= next->bytes();
-    for (std::vector<float>* values : {&next->records, &next->weights, &next->others})
-      std::vector<float>().swap(*values);  // assigning an empty one would keep the memory
+    next->forget();
   }
 }
 
-void StreamedFrame::read(Block& block) {
+SampleBuffer StreamedFrame::cleaned_rows(Block& block) {
+  if (!block.cleaned.values.empty()) return std::exchange(block.cleaned, {});
   make_room();
   SampleBuffer samples = rows_.read(block.first, block.end);
   clean_again(samples, find_columns(rows_.frame(), settings_.clamp_infinite), settings_.clamp_negative);
+  return samples;
+}
+
+void StreamedFrame::read(Block& block) {
+  SampleBuffer samples = cleaned_rows(block);
   PreparedFrame part;
   part.frame.variables = prepared_.frame.variables;
   part.facts.radiance_scale = prepared_.facts.radiance_scale;
@@ -102,6 +115,7 @@ void StreamedFrame::read(Block& block) {
   block.records = std::move(part.frame.records);
   block.weights = std::move(part.frame.weights);
   block.others = std::move(part.frame.others);
+  block.is_there = true;
 }
 
 void StreamedFrame::add_energy(const Block& block) {

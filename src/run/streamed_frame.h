@@ -15,10 +15,11 @@ namespace rpf {
 
 class StreamedFrame : public RowSupply {
  public:
-  /// All of these outlive this, which fills `prepared`; its first_sample is known. `memory`: bytes of records that may
-  /// be kept for when they are asked for again. Reads rows of at most `at_once` bytes, or one row.
+  /// All of these outlive this, which fills `prepared`; its first_sample is known. `kept`: rows that were cleaned while
+  /// the frame was gone through by the same `at_once`. `memory`: bytes that may be kept for when they are asked for
+  /// (again).
   StreamedFrame(SampleRows& rows, const ObservedFindings& found, const Settings& settings, const EstimatePlan& plan,
-                PreparedFrame& prepared, std::uint64_t memory, std::uint64_t at_once);
+                PreparedFrame& prepared, std::vector<SampleBuffer> kept, std::uint64_t memory, std::uint64_t at_once);
 
   int bring(int first, int end, bool again) override;
 
@@ -34,15 +35,21 @@ class StreamedFrame : public RowSupply {
     int first = 0, end = 0;
     std::size_t first_record = 0;
     std::vector<float> records, weights, others;
+    SampleBuffer cleaned;  ///< what these will be made of, where it was kept
     std::uint64_t latest_use = 0;
-    bool is_done = false;  ///< nobody will ask for it again
+    bool is_there = false;  ///< records are, of which there may be none
+    bool is_done = false;   ///< nobody will ask for it again
 
-    std::uint64_t bytes() const { return (records.size() + weights.size() + others.size()) * sizeof(float); }
+    std::uint64_t bytes() const {
+      return (records.size() + weights.size() + others.size() + cleaned.values.capacity()) * sizeof(float);
+    }
+    void forget();
   };
 
   Block& block_of(int row);
   void exchange_with_frame(Block& block);
   void make_room();
+  SampleBuffer cleaned_rows(Block& block);
   void read(Block& block);
   void add_energy(const Block& block);
 

@@ -71,27 +71,64 @@ double reference_pixel(const Renderer& renderer, const SceneOptions& options, st
   return error / 3;
 }
 
+/// A scene's samples, rendered when they are read.
+class SceneRows : public SampleRows {
+ public:
+  SceneRows(const std::string& name, const SceneOptions& options)
+      : options_(options), renderer_(name, options_), first_sample_(first_samples(options_)) {
+    frame_.data_window = frame_.display_window = {0, 0, options.width, options.height};
+    frame_.layout = sample_layout(options_);
+    frame_.metadata = metadata_of(name, options_);
+  }
+
+  const SampleBuffer& frame() const override { return frame_; }
+  std::uint64_t row_samples(int row) const override {
+    return first_sample_[pixel_of(row + 1)] - first_sample_[pixel_of(row)];
+  }
+  SampleBuffer read(int first, int end) override { return render(first, end, {}); }
+
+  SampleBuffer render(int first, int end, const Control& control) const {
+    SampleBuffer samples = frame_;
+    samples.data_window.y += first;
+    samples.data_window.height = end - first;
+    const std::size_t begin = pixel_of(first), pixels = pixel_of(end) - begin;
+    for (std::size_t p = begin; p <= begin + pixels; ++p)
+      samples.first_sample.push_back(first_sample_[p] - first_sample_[begin]);
+    samples.values.resize(samples.sample_count() * samples.layout.size());
+    const double mean = static_cast<double>(samples.sample_count()) / static_cast<double>(pixels);
+    for_all_pixels({pixels, mean, options_.threads}, control,
+                   [&](std::size_t p) { render_pixel(begin + p, samples, samples.first_sample[p]); });
+    return samples;
+  }
+
+ private:
+  std::size_t pixel_of(int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(options_.width);
+  }
+
+  void render_pixel(std::size_t pixel, SampleBuffer& samples, std::uint32_t first) const {
+    const std::uint32_t count = first_sample_[pixel + 1] - first_sample_[pixel];
+    const PixelSampler sampler(options_.sampler, pixel_key(options_.seed, Stage::samples, pixel), count);
+    for (std::uint32_t number = 0; number < count; ++number)
+      write_record(renderer_.render(pixel, sampler, number), renderer_.usage(), options_,
+                   samples.record(first + number));
+  }
+
+  SceneOptions options_;
+  Renderer renderer_;
+  std::vector<std::uint32_t> first_sample_;  ///< of the whole frame
+  SampleBuffer frame_;
+};
+
 }  // namespace
 }  // namespace scene
 
 SampleBuffer render_scene(const std::string& name, const SceneOptions& options, const Control& control) {
-  using namespace scene;
-  const Renderer renderer(name, options);
-  SampleBuffer samples;
-  samples.data_window = samples.display_window = {0, 0, options.width, options.height};
-  samples.layout = sample_layout(options);
-  samples.metadata = metadata_of(name, options);
-  samples.first_sample = first_samples(options);
-  samples.values.resize(samples.sample_count() * samples.layout.size());
-  const std::size_t pixels = samples.data_window.pixel_count();
-  const double mean = static_cast<double>(samples.sample_count()) / static_cast<double>(pixels);
-  for_all_pixels({pixels, mean, options.threads}, control, [&](std::size_t pixel) {
-    const std::uint32_t first = samples.first_sample[pixel], count = samples.first_sample[pixel + 1] - first;
-    const PixelSampler sampler(options.sampler, pixel_key(options.seed, Stage::samples, pixel), count);
-    for (std::uint32_t number = 0; number < count; ++number)
-      write_record(renderer.render(pixel, sampler, number), renderer.usage(), options, samples.record(first + number));
-  });
-  return samples;
+  return scene::SceneRows(name, options).render(0, options.height, control);
+}
+
+std::unique_ptr<SampleRows> open_scene_rows(const std::string& name, const SceneOptions& options) {
+  return std::make_unique<scene::SceneRows>(name, options);
 }
 
 Image render_reference(const std::string& name, const SceneOptions& options, const Control& control) {

@@ -128,7 +128,7 @@ TEST_P(Rows, FactsAreThoseOfTheWhole) {
   const Settings settings = settings_of(GetParam());
   for (const Frame& frame : frames) {
     BufferRows rows(frame_of(frame)), whole(frame_of(frame));
-    EXPECT_EQ(text_of(scan_rows(rows, settings, {}, a_row).facts), text_of(scan_rows(whole, settings, {}).facts))
+    EXPECT_EQ(text_of(scan_rows(rows, settings, {}, {a_row}).facts), text_of(scan_rows(whole, settings, {}).facts))
         << frame.name;
   }
 }
@@ -139,7 +139,7 @@ TEST_P(Rows, OfACropAreThoseOfTheWhole) {
   for (const Frame& frame : frames) {
     SCOPED_TRACE(frame.name);
     BufferRows rows(frame_of(frame));
-    const std::string facts = text_of(scan_rows(rows, settings, {}, a_row).facts);
+    const std::string facts = text_of(scan_rows(rows, settings, {}, {a_row}).facts);
     const Result part = filter_rows(rows, settings, facts), whole = filter(frame_of(frame), settings);
     expect_same(part.image, whole.image);
     expect_same(part.features, whole.features);
@@ -155,8 +155,7 @@ class Streams : public testing::TestWithParam<const char*> {};
 Result streamed(const SampleBuffer& samples, Settings settings) {
   settings.max_memory = 1;
   BufferRows rows(samples);
-  const ScannedRows scanned = scan_rows(rows, settings, {}, a_row);
-  return run_streamed(rows, scanned.first_sample, std::get<ObservedFindings>(scanned.facts), settings, {}, a_row);
+  return run_streamed(rows, scan_rows(rows, settings, {}, {a_row}), settings, {}, a_row);
 }
 
 TEST_P(Streams, MakeThePictureOfTheWhole) {
@@ -186,15 +185,54 @@ TEST_P(Streams, ReadNoRowAnewThatIsSoonAskedForAgain) {
   if (settings.backend == "opencl" && devices().empty()) GTEST_SKIP() << "no OpenCL device";
   constexpr int height = 500, kept = 140;
   BufferRows rows(frame_of(frames[0], height));
-  const ScannedRows scanned = scan_rows(rows, settings, {}, a_row);
-  const auto& found = std::get<ObservedFindings>(scanned.facts);
-  settings.max_memory =
-      predict_rows_memory(rows, found.cleaned.most_samples, settings).bytes + kept * row_bytes(rows, 0) / 3 * 4;
+  ScannedRows scanned = scan_rows(rows, settings, {}, {a_row});
+  const std::uint32_t most = std::get<ObservedFindings>(scanned.facts).cleaned.most_samples;
+  settings.max_memory = predict_rows_memory(rows, most, settings).bytes + kept * row_bytes(rows, 0) / 3 * 4;
   rows.rows_read = 0;
-  run_streamed(rows, scanned.first_sample, found, settings, {}, a_row);
+  run_streamed(rows, std::move(scanned), settings, {}, a_row);
   // Samples are seen twice. A device does so with the rows between that the network reaches; the reference with all,
   // of which it keeps as many as there is room for.
   EXPECT_LE(rows.rows_read, settings.backend == "opencl" ? height : 2 * height - kept / 5 * 4);
+}
+
+TEST_P(Streams, TakeRowsThatWereKept) {
+  Settings settings = settings_of("learned");
+  settings.backend = GetParam();
+  settings.max_memory = 1 << 30;
+  if (settings.backend == "opencl" && devices().empty()) GTEST_SKIP() << "no OpenCL device";
+  for (const Frame& frame : frames) {
+    SCOPED_TRACE(frame.name);
+    const SampleBuffer samples = frame_of(frame);
+    BufferRows rows(samples);
+    const std::uint64_t some = 3 * row_bytes(rows, 0);
+    ScannedRows scanned = scan_rows(rows, settings, {}, {some, 0, 18, 3 * some});
+    std::uint64_t kept = 0;
+    for (const SampleBuffer& part : scanned.kept) kept += static_cast<std::uint64_t>(part.data_window.height);
+    EXPECT_GE(kept, 6U);
+    EXPECT_LT(kept, 12U);
+    rows.rows_read = 0;
+    const Result part = run_streamed(rows, std::move(scanned), settings, {}, some), whole = filter(samples, settings);
+    EXPECT_EQ(rows.rows_read, 18 - static_cast<int>(kept));
+    expect_same(part.image, whole.image);
+    expect_same(part.features, whole.features);
+  }
+}
+
+TEST_P(Streams, OfACropThatFactsAreGivenFor) {
+  Settings settings = settings_of("learned");
+  settings.backend = GetParam();
+  if (settings.backend == "opencl" && devices().empty()) GTEST_SKIP() << "no OpenCL device";
+  settings.crop = Window{-3, 112, 9, 40};
+  const SampleBuffer samples = frame_of(frames[1], 300);
+  BufferRows rows(samples);
+  const std::uint64_t some = 7 * row_bytes(rows, 0);
+  ScannedRows scanned, all = scan_rows(rows, settings, {}, {some});
+  scanned.facts = std::move(all.facts);
+  const CleanReport& cleaned = std::get<ObservedFindings>(scanned.facts).cleaned;
+  count_rows(rows, {some, 32, 208, some}, cleaned, settings, scanned);
+  const Result part = run_streamed(rows, std::move(scanned), settings, {}, some), whole = filter(samples, settings);
+  expect_same(part.image, whole.image);
+  expect_same(part.features, whole.features);
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, Streams, testing::Values("cpu", "opencl"));
@@ -211,7 +249,7 @@ TEST(RowsOfAFile, AreReadWhereTheCropNeedsThem) {
 
 TEST(RowsOfAFile, AreFewWhereInputsThatDependOnOthersVaryAtOnce) {
   BufferRows rows(frame_of(frames[0]));
-  scan_rows(rows, settings_of("learned"), {}, a_row);
+  scan_rows(rows, settings_of("learned"), {}, {a_row});
   EXPECT_EQ(rows.rows_read, 18 + 1);
 }
 

@@ -134,6 +134,29 @@ TEST_P(EveryScene, HasTheSameBitsForAnyNumberOfThreadsAndAnyPieces) {
   EXPECT_FALSE(same_bits(once, render_scene(GetParam(), options)));
 }
 
+TEST_P(EveryScene, HasTheSameBitsRowsByRows) {
+  SceneOptions options = small();
+  options.adaptive = true;
+  const SampleBuffer once = render_scene(GetParam(), options);
+  const auto rows = rpf::open_scene_rows(GetParam(), options);
+  SampleBuffer joined = rows->frame();
+  joined.first_sample = {0};
+  for (int y = 0, end = 0; y < options.height; y = end) {
+    end = std::min(y + 3, options.height);
+    const SampleBuffer part = rows->read(y, end);
+    std::uint64_t samples = 0;
+    for (int row = y; row < end; ++row) samples += rows->row_samples(row);
+    EXPECT_EQ(part.sample_count(), samples);
+    EXPECT_EQ(part.data_window, (rpf::Window{0, y, options.width, end - y}));
+    const std::uint32_t before = joined.first_sample.back();
+    for (std::size_t p = 1; p < part.first_sample.size(); ++p)
+      joined.first_sample.push_back(before + part.first_sample[p]);
+    joined.values.insert(joined.values.end(), part.values.begin(), part.values.end());
+  }
+  EXPECT_TRUE(same_bits(once, joined));
+  EXPECT_EQ(once.metadata, joined.metadata);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(rpf::test::scene_names()), rpf::test::name_of_scene);
 
 TEST(Scene, ConstantIsExact) {
