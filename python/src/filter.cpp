@@ -94,9 +94,10 @@ void convert(const std::filesystem::path& source, const std::filesystem::path& t
 
 void bind_filter(nb::module_& module) {
   module.def("run_filter", &run_filter, "samples"_a, "settings"_a, "keep"_a, "progress"_a.none());
-  module.def("convert", &convert, "source"_a, "target"_a,
-             "Writes a sample file as another: .exr is deep OpenEXR, .rpf raw floats. A few MB of memory, however large the "
-             "file is. Raises InputError, OutputError.");
+  module.def(
+      "convert", &convert, "source"_a, "target"_a,
+      "Writes a sample file as another: .exr is deep OpenEXR, .rpf raw floats. A few MB of memory, however large the "
+      "file is. Raises InputError, OutputError.");
   module.def("available_memory", &available_memory, "Bytes that this process can have.");
   module.def(
       "needed_slots", [](const std::vector<std::string>& slots, const Settings& s) { return needed_slots({slots}, s); },

@@ -45,14 +45,21 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   const Command filter_command = add_filter_command(app, {argv + 1, argv + argc});
   const std::pair<const char*, Command> subcommands[] = {
-      {"info", add_info_command(app)},         {"compare", add_compare_command(app)},
-      {"merge", add_merge_command(app)},       {"convert", add_convert_command(app)},
-      {"scene", add_scene_command(app)},       {"devices", add_devices_command(app)},
-      {"report", add_report_command(app)},     {"explain", add_explain_command(app)},
-      {"selftest", add_selftest_command(app)}, {"bench", add_bench_command(app)},
-      {"study", add_study_command(app)},       {"manual", add_manual_command(app)},
+      {"info", add_info_command(app)},
+      {"compare", add_compare_command(app)},
+      {"merge", add_merge_command(app)},
+      {"convert", add_convert_command(app)},
+      {"scene", add_scene_command(app)},
+      {"devices", add_devices_command(app)},
+      {"report", add_report_command(app)},
+      {"explain", add_explain_command(app)},
+      {"selftest", add_selftest_command(app)},
+      {"bench", add_bench_command(app)},
+      {"study", add_study_command(app)},
+      {"manual", add_manual_command(app)},
       {"density", add_density_command(app)},
-      {"join", add_join_command(app)},         {"facts", add_facts_command(app, {argv + 1, argv + argc})},
+      {"join", add_join_command(app)},
+      {"facts", add_facts_command(app, {argv + 1, argv + argc})},
   };
   try {
     app.parse(argc, argv);
