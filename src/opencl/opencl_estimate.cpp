@@ -22,8 +22,8 @@ std::vector<float> OpenClBackend::estimate(const Window& region, const EstimateP
   const Window window = window_around(*estimate_plan_, region);
   return on_device("estimating", [&] {
     const int first = region.y - window.y;
-    EstimateRun run(session_, *network_, {*frame_, *estimate_plan_, window}, first, first + region.height,
-                    items_, false);
+    EstimateRun run(session_, *network_, {*frame_, *estimate_plan_, window}, first, first + region.height, items_,
+                    false);
     return run.run(region.x - window.x, region.width, progress);
   });
 }
@@ -31,8 +31,7 @@ std::vector<float> OpenClBackend::estimate(const Window& region, const EstimateP
 std::vector<EstimateStage> OpenClBackend::trace_estimate(const Window& region) {
   const Window window = window_around(*estimate_plan_, region);
   return on_device("tracing the estimator", [&] {
-    return EstimateRun(session_, *network_, {*frame_, *estimate_plan_, window}, 0, window.height, items_, true)
-        .trace();
+    return EstimateRun(session_, *network_, {*frame_, *estimate_plan_, window}, 0, window.height, items_, true).trace();
   });
 }
 

@@ -16,7 +16,8 @@ struct FilterWeights {
   std::vector<float> beta;                     ///< [m]
 };
 
-/// Variables are in the order of Variables (frame/variables.h); V is their number, m the number of features, N of neighbors.
+/// Variables are in the order of Variables (frame/variables.h); V is their number, m the number of features, N of
+/// neighbors.
 struct PixelTrace {
   int pass = 0;
   std::uint32_t pixel = 0;
