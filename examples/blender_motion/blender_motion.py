@@ -74,11 +74,19 @@ def build():
     return scene
 
 
+def has_denoiser(scene):
+    """Debian's Blender comes without Open Image Denoise."""
+    try:
+        scene.cycles.denoiser, scene.cycles.denoising_input_passes = "OPENIMAGEDENOISE", "RGB_ALBEDO_NORMAL"
+    except TypeError:
+        return False
+    return True
+
+
 def render(scene, path, samples, denoise=False, seed=0):
     """What Cycles itself makes of as many samples, with the same pixel filter."""
     scene.cycles.samples, scene.cycles.use_adaptive_sampling, scene.cycles.pixel_filter_type = samples, False, "BOX"
     scene.cycles.use_denoising, scene.cycles.seed = denoise, seed
-    scene.cycles.denoiser, scene.cycles.denoising_input_passes = "OPENIMAGEDENOISE", "RGB_ALBEDO_NORMAL"
     scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
     scene.render.filepath = str(path)
     bpy.ops.render.render(write_still=True)
@@ -95,12 +103,14 @@ def compare(rpf, scene, folder, samples, reference):
     for number, options in enumerate(images.values()):
         paths.append(folder / f"motion-{samples}-{number}.exr")
         subprocess.run([rpf, *options, "--quiet", sample_file, "-o", paths[-1]], check=True)
-    paths.append(folder / f"motion-{samples}-oidn.exr")
-    render(scene, paths[-1], samples, denoise=True)
+    if has_denoiser(scene):
+        images["Cycles' Open Image Denoise"] = None
+        paths.append(folder / f"motion-{samples}-oidn.exr")
+        render(scene, paths[-1], samples, denoise=True)
     picture = folder / f"motion-{samples}.png"
     subprocess.run([rpf, "compare", paths[0], paths[2], paths[-1], reference, "--side-by-side", picture], check=True, stdout=subprocess.DEVNULL)
     found = subprocess.run([rpf, "compare", "--json", *paths, reference], check=True, stdout=subprocess.PIPE).stdout
-    return list(zip([*images, "Cycles' Open Image Denoise"], json.loads(found)["images"]))
+    return list(zip(images, json.loads(found)["images"]))
 
 
 def main(rpf, folder):

@@ -1,5 +1,5 @@
-"""The program Blender, where it is installed: the commands of docs/blender.md, word for word, on three scenes (the mean of the samples is
-what Cycles renders by itself), and the add-on as a user installs it. Usage: blender_program_test.py RPF PROJECT BLENDER"""
+"""The program Blender, where it is installed: the commands of pages, word for word: docs/blender.md on three scenes (the mean of the samples is
+what Cycles renders by itself), the example; and the add-on as a user installs it. Usage: blender_program_test.py RPF PROJECT BLENDER"""
 import json
 import os
 import subprocess
@@ -13,7 +13,7 @@ if not BLENDER.exists():
     print("skipped: there is no program blender (Debian's package of that name will do)")
     sys.exit(77)
 sys.path.insert(0, str(PROJECT / "tests" / "docs"))
-from pages import run_by  # noqa: E402
+from pages import blocks, pages  # noqa: E402
 
 ADDON = PROJECT / "integrations" / "blender" / "rpf_blender.py"
 SAMPLES = 8  # as on the page
@@ -55,6 +55,12 @@ def run(folder, *command):
     return result.stdout
 
 
+def run_page(folder, place):
+    commands = [block.text for block in blocks(pages(PROJECT)[place]) if block.note == "run by blender.program"]
+    assert commands, f"{place} has <!-- run by blender.program --> no more"
+    run(folder, "bash", "-euo", "pipefail", "-xc", "".join(commands))
+
+
 def python(folder, script, *file):
     """Runs a script in Blender, whose exit status is 0 whatever a script does unless it is told."""
     return run(folder, BLENDER, "-b", "--python-exit-code", "1", *file, "--python-expr", script)
@@ -72,7 +78,7 @@ class BlenderProgramTest(unittest.TestCase):
             with self.subTest(kind), tempfile.TemporaryDirectory(prefix="rpf blender ü ") as folder:
                 make(kind, folder)
                 before = (Path(folder) / "file.blend").read_bytes()
-                run(folder, "bash", "-euo", "pipefail", "-xc", run_by(PROJECT, "blender.program"))
+                run_page(folder, "docs/blender.md")
                 self.assertEqual((Path(folder) / "file.blend").read_bytes(), before)
                 python(folder, RENDER.format(folder=folder), "file.blend")
                 run(folder, RPF, "samples.exr", "-o", "mean.exr", "--boxes", "none", "-q")
@@ -80,6 +86,17 @@ class BlenderProgramTest(unittest.TestCase):
                 print(kind, compared)
                 self.assertLess(max(channel["difference"] for channel in compared.values()), MEAN)
                 self.assertTrue((Path(folder) / "clean.exr").exists())
+
+    def test_the_example_compares_every_preset(self):
+        with tempfile.TemporaryDirectory(prefix="rpf blender ü ") as folder:
+            (Path(folder) / "build").mkdir()
+            (Path(folder) / "build" / "release").symlink_to(RPF.parent)
+            for name in ("examples", "integrations"):
+                (Path(folder) / name).symlink_to(PROJECT / name)
+            run_page(folder, "examples/blender_motion/README.md")
+            table = (Path(folder) / "motion" / "motion.md").read_text()
+            self.assertEqual([table.count(f"`--preset {preset}`") for preset in ("fast", "balanced", "high")], [2, 2, 2])
+            self.assertTrue((Path(folder) / "motion" / "motion-8.png").exists())
 
     def test_the_add_on_is_installed_and_renders(self):
         with tempfile.TemporaryDirectory(prefix="rpf blender ü ") as folder:
