@@ -13,7 +13,7 @@ from pages import run_by
 
 NAME, PROJECT = sys.argv[1], Path(sys.argv[2]).resolve()
 # What a compiler says of itself is none of a reader's business; test results are listed by ctest, not by one.
-TALK = re.compile(r"warnings? generated|\bwarning:|CMake Warning", re.I)
+TALK = re.compile(r"warnings? generated|(?<!=)\bwarning:|CMake Warning", re.I)  # ==PID==WARNING: is a sanitizer without its symbolizer
 SCENE = """<scene version="3.0.0">
 <integrator type="path"><integer name="max_depth" value="4"/></integrator>
 <sensor type="thinlens"><float name="aperture_radius" value="0.3"/><float name="focus_distance" value="6"/>
