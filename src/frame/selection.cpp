@@ -92,13 +92,13 @@ struct Known {
 /// The groups that were asked for, or all that are there and known.
 std::vector<std::string> select_known(const std::vector<std::string>& slots,
                                       const std::optional<std::vector<std::string>>& asked, const Known& what) {
-  const auto& [method, kind, known] = what;
+  const Groups& known = what.groups;
   Groups wanted = without_first_hit_word(asked.value_or(Groups{all_groups}), slots);
   for (const std::string& name : wanted)
     if (name != all_groups && name != inside_pixel && contains(groups_of(slots), name) && !contains(known, name))
-      throw Error(ErrorKind::usage, fmt::format("{} '{}' is none that {} looks at; those are: {}", kind, name, method,
-                                                fmt::join(known, ", ")));
-  std::vector<std::string> picked = pick(slots, wanted, kind);
+      throw Error(ErrorKind::usage, fmt::format("{} '{}' is none that {} looks at; those are: {}", what.kind, name,
+                                                what.method, fmt::join(known, ", ")));
+  std::vector<std::string> picked = pick(slots, wanted, what.kind);
   picked.erase(std::remove_if(picked.begin(), picked.end(),
                               [&](const std::string& slot) { return !contains(known, group_of(slot)); }),
                picked.end());
