@@ -166,7 +166,7 @@ void spread(const std::vector<std::uint8_t>& row, const std::vector<Target>& tar
 }
 
 void check_sample_budget(const CheckedFile& file, std::size_t columns, std::uint64_t limit) {
-  check_sample_count(file.info);
+  check_sample_count(file.info.path, file.info.sample_count);
   const std::uint64_t pixels = file.info.data_window.pixel_count();
   const std::uint64_t values = file.info.sample_count * columns * sizeof(float);
   check_budget(file.info.path, values + (pixels + 1) * sizeof(std::uint32_t) + reader_bytes(file), limit);

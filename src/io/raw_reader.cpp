@@ -89,7 +89,7 @@ void for_each_count(FileBytes& file, const CheckedFile& checked, Use use) {
 }
 
 void check_sample_budget(const CheckedFile& checked, std::size_t columns, std::uint64_t limit) {
-  check_sample_count(checked.info);
+  check_sample_count(checked.info.path, checked.info.sample_count);
   const std::uint64_t pixels = checked.info.data_window.pixel_count();
   check_budget(checked.info.path, (checked.info.sample_count * columns + pixels + 1) * word, limit);
 }

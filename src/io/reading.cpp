@@ -19,12 +19,12 @@ void check_budget(const std::string& path, std::uint64_t need, std::uint64_t lim
                   path, (need + megabyte - 1) / megabyte, limit / megabyte));
 }
 
-void check_sample_count(const SampleFileInfo& info) {
-  if (info.sample_count > most_samples_of_frame)
+void check_sample_count(const std::string& path, std::uint64_t samples) {
+  if (samples > most_samples_of_frame)
     throw Error(ErrorKind::input,
                 fmt::format("\"{}\" holds {} samples, more than the {} that one buffer takes; crop or "
                             "split the frame",
-                            info.path, info.sample_count, most_samples_of_frame));
+                            path, samples, most_samples_of_frame));
 }
 
 void check_read_back(const std::string& path, const SampleFileInfo& back, const Window& window, std::uint64_t samples) {

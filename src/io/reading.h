@@ -12,7 +12,7 @@ namespace rpf::io {
 void check_budget(const std::string& path, std::uint64_t need, std::uint64_t limit);
 
 /// Throws Error(input) for more samples than the numbers in SampleBuffer::first_sample can count.
-void check_sample_count(const SampleFileInfo& info);
+void check_sample_count(const std::string& path, std::uint64_t samples);
 
 /// Throws Error(output) where a file just written is not what went in, so that a defect of a writer does not replace a
 /// good file. `back` is what was read of the temporary file.

@@ -6,6 +6,7 @@
 #include "io/exr_structure.h"
 #include "io/raw_files.h"
 #include "io/raw_header.h"
+#include "io/reading.h"
 #include "io/row_pieces.h"
 #include "io/sample_formats.h"
 
@@ -24,7 +25,9 @@ SampleBuffer read_samples(const std::string& path, const SampleReadOptions& opti
 }
 
 std::unique_ptr<SampleRows> open_sample_rows(const std::string& path, const SampleReadOptions& options) {
-  return io::is_raw(path) ? io::open_raw_rows(path, options) : io::open_deep_rows(path, options);
+  auto rows = io::is_raw(path) ? io::open_raw_rows(path, options) : io::open_deep_rows(path, options);
+  io::check_sample_count(path, io::sample_count(*rows));
+  return rows;
 }
 
 void write_samples(const std::string& path, const SampleBuffer& samples, const std::vector<std::string>& half_slots) {

@@ -277,7 +277,7 @@ class CommandTest(CommandCase):
                                       ([*name, "--sampler", "dice"], 2, "dice"), ([*name, "--world-offset", "1,2"], 2, "world-offset"),
                                       ([*name, "--reference", "1"], 2, "reference"), ([*name, "--adaptive", "--reference", "8"], 2, "excludes"),
                                       ([*name, "--density", EXAMPLE.parent / "none.exr"], 3, "none.exr"), ([*name, "--density", REFERENCE], 2, "density"),
-                                      ([*name, "--spp", "1000000"], 6, "memory"), (["scene", "dof", "-o", self.folder / "a" / "b.exr"], 4, "b.exr")):
+                                      ([*name, "--spp", "1000000"], 2, "4294967294"), ([*name, "--spp", "10000", "--max-memory", "100"], 6, "memory"), (["scene", "dof", "-o", self.folder / "a" / "b.exr"], 4, "b.exr")):
             with self.subTest(text=text):
                 self.expect(run(*arguments), code, text)
                 self.expect_nothing_written()

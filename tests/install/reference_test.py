@@ -11,7 +11,10 @@ if shutil.which("doxygen") is None:
     print("skipped: doxygen is not installed (Debian: apt-get install doxygen)")
     sys.exit(77)
 with tempfile.TemporaryDirectory() as folder:
-    result = subprocess.run(["doxygen", "cmake/Doxyfile"], cwd=project, env={**os.environ, "RPF_REFERENCE_FOLDER": folder},
+    copy = os.path.join(folder, "project")  # Doxygen 1.9.4 finds no page from another where a blank is in the path
+    for part in ("include", "docs", "cmake"):
+        shutil.copytree(os.path.join(project, part), os.path.join(copy, part))
+    result = subprocess.run(["doxygen", "cmake/Doxyfile"], cwd=copy, env={**os.environ, "RPF_REFERENCE_FOLDER": folder},
                             capture_output=True, text=True, check=True, timeout=300)
     warnings = [line for line in result.stderr.splitlines() if line and not line.endswith("is not documented.") or "(function)" in line or "Compound" in line]
     pages = os.listdir(os.path.join(folder, "html"))
