@@ -27,6 +27,15 @@ class SampleRows {
   virtual std::uint64_t row_samples(int row) const = 0;
   /// The rows first .. end - 1 as a frame of their own, whose data window they are. Throws Error(input).
   virtual SampleBuffer read(int first, int end) = 0;
+
+  /// Samples of the rows first .. end - 1.
+  std::uint64_t sample_count(int first, int end) const;
+  /// Of the frame.
+  std::uint64_t sample_count() const;
+  /// Bytes of the samples of a row, with the room that readers leave behind them.
+  std::uint64_t row_bytes(int row) const;
+  /// The end of the rows from `first` on, at least one, that take at most so many bytes together.
+  int end_within(int first, std::uint64_t bytes) const;
 };
 
 /// Opens a sample file to be read by rows; checks what inspect_samples() checks. `options`: as for read_samples(), but

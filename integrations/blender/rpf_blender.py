@@ -194,10 +194,12 @@ class Settings:
 
 
 def _sampling(cycles, samples):
-    """What makes Cycles' samples ours, of scene.cycles. Before 4.5 it had no subset: a frame of one sample of a sequence of that length."""
-    patterns = [pattern for pattern in ("BLUE_NOISE",) if pattern in cycles.bl_rna.properties["sampling_pattern"].enum_items]
-    return {"samples": samples if hasattr(cycles, "use_sample_subset") else 1, "use_adaptive_sampling": False, "use_denoising": False, "use_animated_seed": False, "time_limit": 0,
-            "sampling_pattern": (patterns or [cycles.sampling_pattern])[0], "auto_scrambling_distance": False, "scrambling_distance": 1, "use_guiding": False,
+    """What makes Cycles' samples ours, of scene.cycles. Before 4.5 it had no subset: each frame is the sequence's one sample from its offset."""
+    has_subset = hasattr(cycles, "use_sample_subset")
+    has_blue_noise = "BLUE_NOISE" in cycles.bl_rna.properties["sampling_pattern"].enum_items
+    return {"samples": samples if has_subset else 1, "use_adaptive_sampling": False, "use_denoising": False, "use_animated_seed": False,
+            "time_limit": 0, "sampling_pattern": "BLUE_NOISE" if has_blue_noise else cycles.sampling_pattern,
+            "auto_scrambling_distance": False, "scrambling_distance": 1, "use_guiding": False,
             "pixel_filter_type": "BOX", "use_sample_subset": True, "sample_subset_length": 1, "sample_offset": 0}
 
 

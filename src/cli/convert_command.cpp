@@ -1,8 +1,6 @@
-#include <fmt/format.h>
-
 #include "cli/commands.h"
 #include "cli/dropped.h"
-#include "cli/print.h"
+#include "cli/needs.h"
 #include "cli/progress_bar.h"
 #include "cli/sample_options.h"
 #include "rpf/error.h"
@@ -11,15 +9,6 @@
 
 namespace rpf::cli {
 namespace {
-
-/// Some rows are in memory at once; a row may be too long for it.
-void check_budget(const std::string& input, std::uint64_t need, std::uint64_t limit) {
-  if (need > limit)
-    throw Error(ErrorKind::memory,
-                fmt::format("{}: converting needs {:.0f} MB, the limit is {:.0f} MB; raise --max-memory or leave slots "
-                            "out with --map SLOT=",
-                            input, static_cast<double>(need) / megabyte, static_cast<double>(limit) / megabyte));
-}
 
 int run(const SampleFileOptions& options) {
   if (options.inputs.size() != 1)
@@ -31,7 +20,8 @@ int run(const SampleFileOptions& options) {
   check_in_place(file, options.output);
   tell_dropped(file);
   const auto rows = open_sample_rows(input, read_options);
-  check_budget(input, write_rows_memory(*rows), read_options.max_memory);
+  check_need(file, "converting", write_rows_memory(*rows), read_options.max_memory,
+             " or leave slots out with --map SLOT=");
   with_progress("auto", [&](const Control& control) {
     write_sample_rows(options.output, *rows, half_slots_of({file}), control);
   });

@@ -21,13 +21,12 @@ FrameSize frame_size(const SampleFileInfo& info) {
   return {info.data_window.pixel_count(), info.sample_count, info.max_samples, info.data_window.width};
 }
 
-void check_need(const SampleFileInfo& info, const char* doing, std::uint64_t need, std::uint64_t limit) {
+void check_need(const SampleFileInfo& info, const char* doing, std::uint64_t need, std::uint64_t limit,
+                const char* help) {
   if (need > limit)
-    throw Error(
-        ErrorKind::memory,
-        fmt::format("{}: {} needs {:.0f} MB, the limit is {:.0f} MB; raise --max-memory, lower --threads or leave "
-                    "channels out with --features and --random",
-                    info.path, doing, static_cast<double>(need) / megabyte, static_cast<double>(limit) / megabyte));
+    throw Error(ErrorKind::memory,
+                fmt::format("{}: {} needs {:.0f} MB, the limit is {:.0f} MB; raise --max-memory{}", info.path, doing,
+                            static_cast<double>(need) / megabyte, static_cast<double>(limit) / megabyte, help));
 }
 
 std::uint64_t peak_memory() {

@@ -18,9 +18,12 @@ std::string name_in_group(const std::string& slot);
 
 FrameSize frame_size(const SampleFileInfo& info);
 
-/// Refuses what needs more than the limit, before anything is read: Error(memory) that says what helps. `doing`:
-/// "filtering".
-void check_need(const SampleFileInfo& info, const char* doing, std::uint64_t need, std::uint64_t limit);
+constexpr const char* fewer_channels = ", lower --threads or leave channels out with --features and --random";
+
+/// Refuses what needs more than the limit, before anything is read: Error(memory) that says what helps beside a higher
+/// limit. `doing`: "filtering".
+void check_need(const SampleFileInfo& info, const char* doing, std::uint64_t need, std::uint64_t limit,
+                const char* help = fewer_channels);
 
 /// Bytes that this process has held at most so far.
 std::uint64_t peak_memory();

@@ -91,9 +91,7 @@ void write_sample_file(const Options& o, const SceneOptions& scene) {
   check_budget(o, counts + write_rows_memory(*rows));
   with_progress(progress_mode(o), [&](const Control& c) { write_sample_rows(o.output, *rows, {}, c); });
   if (o.quiet) return;
-  std::uint64_t samples = 0;
-  for (int row = 0; row < scene.height; ++row) samples += rows->row_samples(row);
-  print("{}: {}x{} pixels, {} samples\n", o.output, scene.width, scene.height, samples);
+  print("{}: {}x{} pixels, {} samples\n", o.output, scene.width, scene.height, rows->sample_count());
 }
 
 int run(const Options& o) {

@@ -135,7 +135,7 @@ void write_deep(const std::string& path, SampleRows& rows, const std::vector<std
                                                path, first_line(error.what())));
   }
   writer.finish();
-  check_read_back(path, inspect_deep(file.temporary_path(), {}), rows.frame().data_window, sample_count(rows));
+  check_read_back(path, inspect_deep(file.temporary_path(), {}), rows.frame().data_window, rows.sample_count());
   file.commit();
 }
 

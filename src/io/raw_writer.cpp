@@ -39,7 +39,7 @@ std::uint32_t bits_of(float value) {
 
 /// Each plane has its place: rows go to all of them as they come.
 void write_planes(CheckedWriter& writer, std::uint64_t begin, SampleRows& rows, const Control& control) {
-  const std::uint64_t pixels = rows.frame().data_window.pixel_count(), total = sample_count(rows);
+  const std::uint64_t pixels = rows.frame().data_window.pixel_count(), total = rows.sample_count();
   const auto width = static_cast<std::uint64_t>(rows.frame().data_window.width);
   std::uint64_t before = 0;  // samples
   Words words;
@@ -64,7 +64,7 @@ void write_raw(const std::string& path, SampleRows& rows, const Control& control
   writer.write(header.data(), header.size());
   write_planes(writer, header.size(), rows, control);
   writer.finish();
-  check_read_back(path, inspect_raw(file.temporary_path(), {}), rows.frame().data_window, sample_count(rows));
+  check_read_back(path, inspect_raw(file.temporary_path(), {}), rows.frame().data_window, rows.sample_count());
   file.commit();
 }
 

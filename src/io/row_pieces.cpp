@@ -8,15 +8,6 @@
 namespace rpf::io {
 namespace {
 
-/// Behind the last row of the piece that begins with `first`: one row at least.
-int piece_end(const SampleRows& rows, int first) {
-  const int height = rows.frame().data_window.height;
-  std::uint64_t samples = rows.row_samples(first);
-  int end = first + 1;
-  while (end < height && samples + rows.row_samples(end) <= most_piece_samples) samples += rows.row_samples(end++);
-  return end;
-}
-
 class Watch {
  public:
   Watch(const Control& control, std::uint64_t samples) : control_(control), samples_(samples) {}
@@ -64,17 +55,11 @@ SampleBuffer BufferRows::read(int first, int end) {
   return rows;
 }
 
-std::uint64_t sample_count(const SampleRows& rows) {
-  std::uint64_t samples = 0;
-  for (int row = 0; row < rows.frame().data_window.height; ++row) samples += rows.row_samples(row);
-  return samples;
-}
-
 void for_each_piece(SampleRows& rows, const Control& control,
                     const std::function<void(const SampleBuffer&, int)>& take) {
-  Watch watch(control, sample_count(rows));
+  Watch watch(control, rows.sample_count());
   for (int first = 0, end = 0; first < rows.frame().data_window.height; first = end) {
-    end = piece_end(rows, first);
+    end = rows.end_within(first, piece_bytes);
     const SampleBuffer samples = rows.read(first, end);
     take(samples, first);
     watch.done(samples.sample_count());

@@ -23,10 +23,8 @@ class BufferRows : public SampleRows {
   SampleBuffer frame_;
 };
 
-std::uint64_t sample_count(const SampleRows& rows);
-
-/// The most samples of a piece of several rows.
-constexpr std::uint64_t most_piece_samples = 1 << 16;
+/// At most, of a piece of several rows.
+constexpr std::uint64_t piece_bytes = 8 << 20;
 
 /// Reads the rows from the top, each once, several at a time: the samples of a piece and the number of its first row.
 /// Throws Error(cancelled).

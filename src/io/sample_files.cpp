@@ -26,7 +26,7 @@ SampleBuffer read_samples(const std::string& path, const SampleReadOptions& opti
 
 std::unique_ptr<SampleRows> open_sample_rows(const std::string& path, const SampleReadOptions& options) {
   auto rows = io::is_raw(path) ? io::open_raw_rows(path, options) : io::open_deep_rows(path, options);
-  io::check_sample_count(path, io::sample_count(*rows));
+  io::check_sample_count(path, rows->sample_count());
   return rows;
 }
 
@@ -47,9 +47,8 @@ void write_sample_rows(const std::string& path, SampleRows& rows, const std::vec
 std::uint64_t write_rows_memory(const SampleRows& rows) {
   constexpr std::uint64_t row_copies = 3;  // as floats, as differences, packed
   std::uint64_t row = 0;
-  for (int y = 0; y < rows.frame().data_window.height; ++y) row = std::max(row, rows.row_samples(y));
-  const std::uint64_t piece = std::max(row, io::most_piece_samples);
-  return (piece + row_copies * row) * (rows.frame().layout.size() + spare_columns) * sizeof(float);
+  for (int y = 0; y < rows.frame().data_window.height; ++y) row = std::max(row, rows.row_bytes(y));
+  return std::max(row, io::piece_bytes) + row_copies * row;
 }
 
 }  // namespace rpf

@@ -20,18 +20,12 @@ template <class Use, class Tell>
 void for_all_rows(SampleRows& rows, std::uint64_t at_once, const Use& use, const Tell& tell) {
   const int height = rows.frame().data_window.height;
   for (int first = 0; first < height;) {
-    const int end = end_at_once(rows, first, at_once);
+    const int end = rows.end_within(first, at_once);
     SampleBuffer part = rows.read(first, end);
     if (!use(part)) return;
     tell(static_cast<double>(end - first) / height);
     first = end;
   }
-}
-
-std::uint64_t samples_in(const SampleRows& rows, int first, int end) {
-  std::uint64_t samples = 0;
-  for (int row = first; row < end; ++row) samples += rows.row_samples(row);
-  return samples;
 }
 
 /// Adds the samples of every pixel of cleaned rows to the sums so far.
@@ -114,18 +108,6 @@ FrameFindings find_frame(SampleRows& rows, const Settings& settings, ProgressMet
 
 }  // namespace
 
-std::uint64_t row_bytes(const SampleRows& rows, int row) {
-  return rows.row_samples(row) * (rows.frame().layout.size() + spare_columns) * sizeof(float);
-}
-
-int end_at_once(const SampleRows& rows, int first, std::uint64_t at_once) {
-  const int height = rows.frame().data_window.height;
-  std::uint64_t bytes = row_bytes(rows, first);
-  int end = first + 1;
-  while (end < height && bytes + row_bytes(rows, end) <= at_once) bytes += row_bytes(rows, end++);
-  return end;
-}
-
 ScannedRows scan_rows(SampleRows& rows, Settings settings, const Control& control, const RowWalk& walk) {
   validate(settings);
   if (filters_pixels(settings.method))
@@ -151,7 +133,7 @@ void count_rows(SampleRows& rows, const RowWalk& walk, const CleanReport& cleane
   Keeper keeper(walk, rows.frame(), scanned.kept);
   int first = 0, end = 0;  // of what is read: as where all rows are
   for (int row = 0, next = 0; row < walk.end; row = next) {
-    next = end_at_once(rows, row, walk.at_once);
+    next = rows.end_within(row, walk.at_once);
     if (next <= walk.first) continue;
     if (end == 0) first = row;
     end = next;
@@ -168,7 +150,7 @@ void count_rows(SampleRows& rows, const RowWalk& walk, const CleanReport& cleane
 std::uint64_t rows_need(const SampleRows& rows, int first, int end, std::uint32_t most_samples,
                         const Settings& settings) {
   const Window& window = rows.frame().data_window;
-  return predict_memory({window.pixel_count(), samples_in(rows, first, end), most_samples, window.width},
+  return predict_memory({window.pixel_count(), rows.sample_count(first, end), most_samples, window.width},
                         rows.frame().layout, settings);
 }
 

@@ -13,12 +13,6 @@ namespace rpf {
 /// Bytes of samples that are read at once where nothing asks for more.
 constexpr std::uint64_t bytes_at_once = 32 << 20;
 
-/// Bytes of the samples of a row.
-std::uint64_t row_bytes(const SampleRows& rows, int row);
-
-/// The end of the rows from `first` on, at least one, that are read at once.
-int end_at_once(const SampleRows& rows, int first, std::uint64_t at_once = bytes_at_once);
-
 /// How rows are gone through: at most `at_once` bytes at a time, or one row; from the first on so many bytes of those
 /// that reach into first .. end - 1 stay in memory.
 struct RowWalk {

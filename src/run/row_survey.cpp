@@ -37,7 +37,7 @@ RowSurvey survey_rows(SampleRows& rows) {
   }
   std::vector<char> any_finite(frame.layout.size(), 0);
   for (int row = 0, end = 0; row < frame.data_window.height; row = end) {
-    end = end_at_once(rows, row);
+    end = rows.end_within(row, bytes_at_once);
     const SampleBuffer part = rows.read(row, end);
     const std::size_t first = first_pixel(part.data_window, frame.data_window);
     for (std::size_t place = 0; place + 1 < part.first_sample.size(); ++place)

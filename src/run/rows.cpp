@@ -98,7 +98,7 @@ Result filter_rows(SampleRows& rows, const Settings& settings, const std::string
 RowsMemory predict_rows_memory(const SampleRows& rows, std::uint32_t max_samples_per_pixel, const Settings& settings) {
   const RawSize raw = streamed_size(rows, max_samples_per_pixel);
   const EstimateBands bands = estimate_bands(raw.size, raw.layout, raw.room, settings, *make_backend(settings));
-  return {bands.bytes, end_at_once(rows, 0), bands.rows};
+  return {bands.bytes, rows.end_within(0, bytes_at_once), bands.rows};
 }
 
 }  // namespace rpf

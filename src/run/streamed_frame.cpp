@@ -13,7 +13,7 @@ namespace {
 
 std::uint64_t block_bytes(const SampleRows& rows, int first, int end) {
   std::uint64_t bytes = 0;
-  for (int row = first; row < end; ++row) bytes += row_bytes(rows, row);
+  for (int row = first; row < end; ++row) bytes += rows.row_bytes(row);
   return bytes;
 }
 
@@ -26,7 +26,7 @@ StreamedFrame::StreamedFrame(SampleRows& rows, const ObservedFindings& found, co
   for (int first = 0; first < plan.height; first = blocks_.back().end) {
     Block block;
     block.first = first;
-    block.end = end_at_once(rows, first, at_once);
+    block.end = rows.end_within(first, at_once);
     block.first_record =
         prepared.frame.first_sample[static_cast<std::size_t>(first) * static_cast<std::size_t>(plan.width)];
     blocks_.push_back(std::move(block));
@@ -45,7 +45,7 @@ void StreamedFrame::Block::forget() {
 std::uint64_t StreamedFrame::least_bytes(const SampleRows& rows) {
   std::uint64_t most = 0;
   for (int first = 0, end = 0; first < rows.frame().data_window.height; first = end) {
-    end = end_at_once(rows, first);
+    end = rows.end_within(first, bytes_at_once);
     most = std::max(most, block_bytes(rows, first, end));
   }
   return 2 * most;  // what was read, and what is made of it

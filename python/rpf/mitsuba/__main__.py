@@ -9,6 +9,8 @@ import sys
 
 import mitsuba as mi
 
+import rpf  # what is compiled is loaded when it is first used: rendering to .rpf does without
+
 from ..errors import Error, InputError, UsageError
 from . import render_to_file, select_variant
 
@@ -104,7 +106,6 @@ def _render(arguments):
     try:
         render_to_file(raw, scene, arguments.spp, arguments.seed, sensor)
         if raw != arguments.output:
-            import rpf  # needs what is compiled; rendering to .rpf does not
             rpf.convert(raw, arguments.output)
     finally:
         if raw != arguments.output and os.path.exists(raw):
@@ -112,7 +113,6 @@ def _render(arguments):
 
 
 def _filter(arguments):
-    import rpf  # needs what is compiled; rendering to .rpf does not
     settings = rpf.preset_settings(arguments.preset or "balanced")
     settings.backend = "auto"
     image = rpf.filter(rpf.read(arguments.output), settings=settings, keep=False)

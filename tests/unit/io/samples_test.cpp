@@ -214,7 +214,7 @@ TEST(Samples, RowsThatAreCopiedMakeTheFileOfTheWhole) {
   const TemporaryFolder folder;
   // Pieces of several rows, of one, and a row that is more than a piece.
   const SampleBuffer samples = make_buffer(
-      {-3, 5, 40, 64}, [](int pixel) { return pixel == 999 ? 70000U : static_cast<unsigned>(pixel * 7 % 97); });
+      {-3, 5, 40, 64}, [](int pixel) { return pixel == 999 ? 200000U : static_cast<unsigned>(pixel * 7 % 97); });
   for (const std::string kind : {".exr", ".rpf"}) {
     rpf::write_samples(folder.file("whole" + kind), samples);
     const auto rows = rpf::open_sample_rows(folder.file("whole" + kind));
@@ -228,7 +228,7 @@ TEST(Samples, RowsThatAreCopiedMakeTheFileOfTheWhole) {
 
 TEST(Samples, CopyingRowsTellsHowFarItIsAndCanBeCancelled) {
   const TemporaryFolder folder;
-  rpf::write_samples(folder.file("a.exr"), make_buffer({0, 0, 400, 400}, [](int) { return 1U; }));
+  rpf::write_samples(folder.file("a.exr"), make_buffer({0, 0, 700, 700}, [](int) { return 1U; }));
   const auto rows = rpf::open_sample_rows(folder.file("a.exr"));
   double latest = 0;
   rpf::Control control;

@@ -187,7 +187,7 @@ TEST_P(Streams, ReadNoRowAnewThatIsSoonAskedForAgain) {
   BufferRows rows(frame_of(frames[0], height));
   ScannedRows scanned = scan_rows(rows, settings, {}, {a_row});
   const std::uint32_t most = std::get<ObservedFindings>(scanned.facts).cleaned.most_samples;
-  settings.max_memory = predict_rows_memory(rows, most, settings).bytes + kept * row_bytes(rows, 0) / 3 * 4;
+  settings.max_memory = predict_rows_memory(rows, most, settings).bytes + kept * rows.row_bytes(0) / 3 * 4;
   rows.rows_read = 0;
   run_streamed(rows, std::move(scanned), settings, {}, a_row);
   // Samples are seen twice. A device does so with the rows between that the network reaches; the reference with all,
@@ -204,7 +204,7 @@ TEST_P(Streams, TakeRowsThatWereKept) {
     SCOPED_TRACE(frame.name);
     const SampleBuffer samples = frame_of(frame);
     BufferRows rows(samples);
-    const std::uint64_t some = 3 * row_bytes(rows, 0);
+    const std::uint64_t some = 3 * rows.row_bytes(0);
     ScannedRows scanned = scan_rows(rows, settings, {}, {some, 0, 18, 3 * some});
     std::uint64_t kept = 0;
     for (const SampleBuffer& part : scanned.kept) kept += static_cast<std::uint64_t>(part.data_window.height);
@@ -225,7 +225,7 @@ TEST_P(Streams, OfACropThatFactsAreGivenFor) {
   settings.crop = Window{-3, 112, 9, 40};
   const SampleBuffer samples = frame_of(frames[1], 300);
   BufferRows rows(samples);
-  const std::uint64_t some = 7 * row_bytes(rows, 0);
+  const std::uint64_t some = 7 * rows.row_bytes(0);
   ScannedRows scanned, all = scan_rows(rows, settings, {}, {some});
   scanned.facts = std::move(all.facts);
   const CleanReport& cleaned = std::get<ObservedFindings>(scanned.facts).cleaned;
