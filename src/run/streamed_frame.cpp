@@ -110,7 +110,6 @@ void StreamedFrame::read(Block& block) {
   SampleBuffer samples = cleaned_rows(block);
   PreparedFrame part;
   part.frame.variables = prepared_.frame.variables;
-  part.facts.radiance_scale = prepared_.facts.radiance_scale;
   observe_rows(std::move(samples), rows_.frame(), found_, settings_, plan_, part);
   block.records = std::move(part.frame.records);
   block.weights = std::move(part.frame.weights);

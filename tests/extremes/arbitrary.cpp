@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "streaming.h"
+
 namespace rpf::test {
 namespace {
 
@@ -19,6 +21,9 @@ int count_of(const SampleBuffer& samples, int pixel) {
   return static_cast<int>(samples.first_sample[static_cast<std::size_t>(pixel) + 1] -
                           samples.first_sample[static_cast<std::size_t>(pixel)]);
 }
+
+/// Whether every frame is filtered once more as if it did not fit into memory: RPF_TEST_STREAMING.
+bool streams_under_test() { return std::getenv("RPF_TEST_STREAMING") != nullptr; }
 
 std::string compare(const std::vector<float>& actual, const std::vector<float>& expected, int width,
                     const std::function<bool(int x, int y)>& counts) {
@@ -74,6 +79,9 @@ float any_finite_float(Dice& dice) {
 Result run(const SampleBuffer& samples, const Settings& settings) {
   Result result = filter(samples, settings);
   EXPECT_EQ(result.report.backend.rfind(backend_under_test(), 0), 0U) << result.report.backend;
+  if (streams_under_test()) {
+    EXPECT_EQ(difference_when_streamed(samples, settings, result), "");
+  }
   return result;
 }
 

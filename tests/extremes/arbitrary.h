@@ -35,7 +35,8 @@ int pixel_of(const SampleBuffer& samples, std::uint32_t sample);
 /// Any float that is not NaN or infinite, all bit patterns alike: half of them are below 1, some are subnormal.
 float any_finite_float(Dice& dice);
 
-/// filter(), and the proof that the backend under test ran it.
+/// filter(), and the proof that the backend under test ran it; in the suite's streaming form also that streaming makes
+/// the same bits.
 Result run(const SampleBuffer& samples, const Settings& settings);
 std::vector<float> filtered(const SampleBuffer& samples, const Settings& settings);
 
