@@ -6,11 +6,15 @@
 
 namespace rpf {
 
-/// One channel, "Y", over the data window: whole numbers, 1 or more, whose mean is `samples` exactly; `rpf scene --spp
-/// 1
-/// --density` renders as many. They bring the pixels' totals, those of `frame` among them, to what makes the relMSE of
-/// the plain mean least; pixels that no further sample should go to get one. Values that are not finite do not count.
-/// Throws Error(usage) for less than 1 sample, Error(input) where no pixel has two samples.
+/// One channel, "Y", over the data window: whole numbers, 1 or more, whose mean is `samples` exactly; `rpf scene
+/// --spp 1 --density` renders as many. They bring the pixels' totals, those of `frame` among them, to what makes the
+/// relMSE of the plain mean least; pixels that no further sample should go to get one. Values that are not finite do
+/// not count. Throws Error(usage) for less than 1 sample, Error(input) where no pixel has two samples.
 Image sample_density(const SampleBuffer& frame, int samples);
+
+/// The relMSE that the plain mean of the samples has, estimated from their variance around each pixel: without what all
+/// of them miss, such as a light that none has found. Pixels without samples are left out. Throws Error(input) where no
+/// pixel has two samples.
+double mean_error(const SampleBuffer& frame);
 
 }  // namespace rpf

@@ -1,5 +1,8 @@
 """rpf.mitsuba against Mitsuba's own renderings. Skipped where Mitsuba is not installed."""
+import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -134,6 +137,43 @@ def test_lines_of_the_document():
     assert names["image"].pixels.shape == (20, 33, 3) and names["image"].pixels.mean() > 0.01
 
 
+# ---- counts that vary
+
+def varying(height=20, width=33):
+    """0 to 6 samples, more to the right."""
+    return np.random.default_rng(4).integers(0, 4, (height, width)) + np.arange(width) // 11
+
+
+def test_density_is_rendered_sample_by_sample():
+    density = varying()
+    samples = render_samples(mi.load_dict(cornell_box("stratified")), density=density.astype(np.float32), seed=2)
+    assert np.array_equal(samples.counts, density.ravel()) and samples.records().check() == []
+    pixel = np.floor(samples.channels["film.Y"]) * 33 + np.floor(samples.channels["film.X"])
+    assert np.array_equal(pixel, np.repeat(np.arange(density.size), density.ravel()))
+
+
+def test_density_has_the_mean_of_the_scene():
+    """32 rounds of varying counts against as many of even ones, within the noise that both have."""
+    scene, density = mi.load_dict(cornell_box()), 1 + varying()
+    mean, variance = render_reference(scene, 400)
+    rounds = np.mean([render_samples(scene, density=density, seed=s).mean() for s in range(32)], 0)
+    assert 0.5 < (np.square(rounds - mean) / (variance * 400 / (32 * density[..., None]) + variance + 1e-9)).mean() < 2
+
+
+def test_rows_of_a_density_are_those_of_the_whole_frame(tmp_path):
+    scene, density = mi.load_dict(cornell_box()), varying()
+    render_to_file(tmp_path / "a.rpf", scene, seed=3, density=density, block_bytes=4 * 33 * 3 * 27 * 7)
+    write_samples(tmp_path / "b.rpf", render_samples(scene, seed=3, density=density))
+    assert (tmp_path / "a.rpf").read_bytes() == (tmp_path / "b.rpf").read_bytes()
+
+
+@pytest.mark.parametrize("density, words", [(np.ones((3, 4)), "4 x 3 pixels"), (np.full((20, 33), 1.5), "whole numbers"), (np.zeros((20, 33)), "somewhere 1"),
+                                            (np.full((20, 33), -1), "whole numbers")])
+def test_density_that_cannot_be_is_refused(density, words):
+    with pytest.raises(rpf_errors.InputError, match=words):
+        render_samples(mi.load_dict(cornell_box()), density=density)
+
+
 # ---- the command ----------------------------------------------------------------------------------------------------------
 
 LOOK = '<transform name="to_world"><lookat origin="0 2 6" target="0 0.7 0" up="0 1 0"/></transform>'
@@ -214,12 +254,25 @@ def test_command_filters(tmp_path):
 
 @pytest.mark.parametrize("arguments, code, words", [
     (["--crop", "40x40+30+0"], 2, "not inside the film"), (["--sensor", "3"], 2, "--sensor 3"), (["--filter", "a.png", "--preset", "best"], 2, "best"),
-    (["-D", "integrator=ptracer"], 3, "gives no radiance for single rays")])
+    (["-D", "integrator=ptracer"], 3, "gives no radiance for single rays"), (["--density", "none.exr"], 3, "--density none.exr")])
 def test_command_refuses_before_it_renders(tmp_path, capsys, arguments, code, words):
     pytest.importorskip("rpf._core")
     assert main([write_scene("lens", tmp_path), "-o", str(tmp_path / "out.exr"), *arguments]) == code
     assert words in capsys.readouterr().err
     assert not list(tmp_path.glob("out*"))
+
+
+def test_command_renders_the_rounds_of_rpf_adapt(tmp_path):
+    rpf = pytest.importorskip("rpf")
+    pytest.importorskip("rpf._core")
+    scene, file = write_scene("lens", tmp_path), str(tmp_path / "all.exr")
+    assert main([scene, "-o", file, "--spp", "2"]) == 0
+    render = [sys.executable, "-m", "rpf.mitsuba", scene, "--density", "{density}", "--seed", "{seed}", "-o", "{output}"]
+    adapted = subprocess.run([os.environ["RPF_COMMAND"], "adapt", file, "--spp", "8", "--", *render], capture_output=True, text=True, check=False)
+    assert adapted.returncode == 0, adapted.stderr
+    samples = rpf.read(file)
+    assert len(samples.values) == 8 * 48 * 32 and samples.check() == [] and samples.metadata["rpf:seeds"] == "0 2 3"
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["all.exr", "scene.xml"]
 
 
 def test_film_with_another_filter_is_told(tmp_path, capsys):

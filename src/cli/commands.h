@@ -21,6 +21,7 @@ Command add_compare_command(CLI::App& app);   ///< rpf compare IMAGE... REFERENC
 Command add_report_command(CLI::App& app);    ///< rpf report IN OUT [REF] -o PAGE
 Command add_explain_command(CLI::App& app);   ///< rpf explain FILE -o DIR
 Command add_density_command(CLI::App& app);   ///< rpf density FILE -o IMAGE
+Command add_adapt_command(CLI::App& app);     ///< rpf adapt FILE -- COMMAND
 Command add_merge_command(CLI::App& app);     ///< rpf merge FILE FILE... -o FILE
 Command add_convert_command(CLI::App& app);   ///< rpf convert FILE -o FILE
 Command add_scene_command(CLI::App& app);     ///< rpf scene NAME -o FILE

@@ -28,6 +28,7 @@ constexpr const char* footer = R"(Examples:
   rpf join part.1.exr part.2.exr part.3.exr part.4.exr -o filtered.exr
   rpf explain render.samples.exr -o explained --pixel 120,80
   rpf density render.samples.exr --spp 4 -o density.exr
+  rpf adapt all.exr --spp 32 -- rpf scene dof --spp 1 --density {density} --seed {seed} -o {output}
   rpf convert theirs.exr -o ours.samples.exr
   rpf scene dof -o dof.samples.exr
   rpf bench frames render.samples.exr --set all='--backend opencl' --set small='--backend opencl --boxes 21,11,5'
@@ -45,21 +46,14 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   const Command filter_command = add_filter_command(app, {argv + 1, argv + argc});
   const std::pair<const char*, Command> subcommands[] = {
-      {"info", add_info_command(app)},
-      {"compare", add_compare_command(app)},
-      {"merge", add_merge_command(app)},
-      {"convert", add_convert_command(app)},
-      {"scene", add_scene_command(app)},
-      {"devices", add_devices_command(app)},
-      {"report", add_report_command(app)},
-      {"explain", add_explain_command(app)},
-      {"selftest", add_selftest_command(app)},
-      {"bench", add_bench_command(app)},
-      {"study", add_study_command(app)},
-      {"manual", add_manual_command(app)},
-      {"density", add_density_command(app)},
-      {"join", add_join_command(app)},
-      {"facts", add_facts_command(app, {argv + 1, argv + argc})},
+      {"info", add_info_command(app)},         {"compare", add_compare_command(app)},
+      {"merge", add_merge_command(app)},       {"convert", add_convert_command(app)},
+      {"scene", add_scene_command(app)},       {"devices", add_devices_command(app)},
+      {"report", add_report_command(app)},     {"explain", add_explain_command(app)},
+      {"selftest", add_selftest_command(app)}, {"bench", add_bench_command(app)},
+      {"study", add_study_command(app)},       {"manual", add_manual_command(app)},
+      {"density", add_density_command(app)},   {"adapt", add_adapt_command(app)},
+      {"join", add_join_command(app)},         {"facts", add_facts_command(app, {argv + 1, argv + argc})},
   };
   try {
     app.parse(argc, argv);

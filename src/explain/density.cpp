@@ -13,22 +13,25 @@ namespace {
 using Values = std::vector<double>;  ///< [pixel]
 
 /// Pixels to each side over which noise and brightness are averaged: a few samples of one pixel know little, and counts
-/// that follow a pixel's own samples would bias its mean.
-constexpr int around = 3;
+/// that follow a pixel's own samples would bias its mean. Near, an edge of noise is seen; far, there are samples
+/// enough.
+constexpr int near_pixel = 1, around = 3;
+
+/// Part of the noise around a pixel that there is at least.
+constexpr double least_part = 0.01;
 
 /// Of relMSE (rpf compare), in the unit of the radiance squared.
 constexpr double least_brightness = 0.01;
 
-/// Sums over the pixels within `around`, as far as the picture goes.
-Values sums_around(const Values& values, int width, int height) {
+/// Sums over the pixels within `reach`, as far as the picture goes.
+Values sums_around(const Values& values, int width, int height, int reach) {
   Values rows(values.size()), sums(values.size());
   const auto at = [&](int x, int y) { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + x; };
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      for (int i = std::max(x - around, 0); i <= std::min(x + around, width - 1); ++i)
-        rows[at(x, y)] += values[at(i, y)];
+      for (int i = std::max(x - reach, 0); i <= std::min(x + reach, width - 1); ++i) rows[at(x, y)] += values[at(i, y)];
   for (int y = 0; y < height; ++y)
-    for (int i = std::max(y - around, 0); i <= std::min(y + around, height - 1); ++i)
+    for (int i = std::max(y - reach, 0); i <= std::min(y + reach, height - 1); ++i)
       for (int x = 0; x < width; ++x) sums[at(x, y)] += rows[at(x, i)];
   return sums;
 }
@@ -62,20 +65,41 @@ Noise noise_of(const SampleBuffer& frame, std::size_t column) {
   return noise;
 }
 
-/// [pixel] what relMSE has of one sample there: variance over brightness, over the colors.
-Values relative_variances(const SampleBuffer& frame) {
+/// [pixel] what relMSE has of one sample there: variance over brightness, each of the pixels within `reach`, mean of
+/// the colors.
+Values relative_variances(const SampleBuffer& frame, int reach) {
   const int width = frame.data_window.width, height = frame.data_window.height;
   Values relative(frame.data_window.pixel_count());
   for (const char* name : {"R", "G", "B"}) {
     const Noise noise = noise_of(frame, *frame.layout.find(name));
-    const Values squares = sums_around(noise.squares, width, height), free = sums_around(noise.free, width, height);
-    const Values means = sums_around(noise.mean, width, height), pixels = sums_around(noise.pixels, width, height);
+    const auto sums = [&](const Values& values) { return sums_around(values, width, height, reach); };
+    const Values squares = sums(noise.squares), free = sums(noise.free);
+    const Values means = sums(noise.mean), pixels = sums(noise.pixels);
     for (std::size_t p = 0; p < relative.size(); ++p) {
       const double brightness = means[p] / std::max(pixels[p], 1.0);
-      relative[p] += squares[p] / std::max(free[p], 1.0) / (brightness * brightness + least_brightness);
+      relative[p] += squares[p] / std::max(free[p], 1.0) / (brightness * brightness + least_brightness) / 3;
     }
   }
   return relative;
+}
+
+/// Sum of v / n is least for a given sum of n where n is in proportion to the root of v. v is the geometric mean of
+/// what is near and what is around.
+Values wanted_samples(const SampleBuffer& frame) {
+  Values wanted = relative_variances(frame, near_pixel);
+  const Values wide = relative_variances(frame, around);
+  for (std::size_t p = 0; p < wanted.size(); ++p)
+    wanted[p] = std::sqrt(std::sqrt(std::max(wanted[p], least_part * wide[p]) * wide[p]));
+  return wanted;
+}
+
+void check_noise_is_told(const SampleBuffer& frame) {
+  frame.validate();
+  for (std::size_t p = 0; p + 1 < frame.first_sample.size(); ++p)
+    if (frame.first_sample[p + 1] - frame.first_sample[p] > 1) return;
+  throw Error(ErrorKind::input,
+              "density: no pixel has two samples, which are needed to tell noise; render with 2 "
+              "samples a pixel or more");
 }
 
 /// Further samples for a level: totals are in proportion to `wanted`, and no pixel gets less than one more.
@@ -125,17 +149,12 @@ std::vector<float> rounded(const Values& each, int width, double sum) {
 }  // namespace
 
 Image sample_density(const SampleBuffer& frame, int samples) {
-  frame.validate();
+  check_noise_is_told(frame);
   if (samples < 1)
     throw Error(ErrorKind::usage, fmt::format("density: {} samples a pixel; 1 or more are expected", samples));
-  Values wanted = relative_variances(frame), counts;
+  const Values wanted = wanted_samples(frame);
+  Values counts;
   for (std::size_t p = 0; p < wanted.size(); ++p) counts.push_back(frame.first_sample[p + 1] - frame.first_sample[p]);
-  if (*std::max_element(counts.begin(), counts.end()) < 2)
-    throw Error(ErrorKind::input,
-                "density: no pixel has two samples, which are needed to tell noise; render with 2 "
-                "samples a pixel or more");
-  // sum of v / n is least for a given sum of n where n is in proportion to the root of v.
-  for (double& value : wanted) value = std::sqrt(value);
   const double sum = static_cast<double>(samples) * static_cast<double>(wanted.size());
   Image density;
   density.data_window = frame.data_window;
@@ -143,6 +162,19 @@ Image sample_density(const SampleBuffer& frame, int samples) {
   density.channels = {"Y"};
   density.pixels = rounded(shared_out(wanted, counts, sum), frame.data_window.width, sum);
   return density;
+}
+
+double mean_error(const SampleBuffer& frame) {
+  check_noise_is_told(frame);
+  const Values relative = relative_variances(frame, around);
+  double sum = 0, pixels = 0;
+  for (std::size_t p = 0; p < relative.size(); ++p) {
+    const std::uint32_t count = frame.first_sample[p + 1] - frame.first_sample[p];
+    if (count == 0) continue;
+    sum += relative[p] / count;
+    ++pixels;
+  }
+  return sum / pixels;
 }
 
 }  // namespace rpf

@@ -71,6 +71,7 @@ class Memory(unittest.TestCase):
         other = self.folder / "other.exr"
         self.assertEqual(self.run_rpf("scene", "dof", "--size", "300x200", "--spp", "4", "--seed", "2", "-q", "-o", other)[0], 0)
         self.assertEqual(self.run_rpf(self.samples, "-o", self.samples.with_name("mean.exr"), "--boxes", "none", "-q")[0], 0)
+        rounds = [RPF, "scene", "dof", "--size", "300x200", "--spp", "1", "-q", "--density", "{density}", "--seed", "{seed}", "-o", "{output}"]
         return {"filter": [self.samples, "-o", output, "--boxes", "3", "-q"],
                 "bilateral": ["--method", "bilateral", self.picture, "-o", output, "--boxes", "3", "-q"],
                 "compare": ["compare", self.picture, self.picture],
@@ -78,6 +79,7 @@ class Memory(unittest.TestCase):
                 "convert": ["convert", self.samples, "-o", output],
                 "merge": ["merge", self.samples, other, "-o", output],
                 "density": ["density", self.samples, "-o", output],
+                "adapt": ["adapt", self.samples, "--spp", "6", "--", *rounds],
                 "report": ["report", self.samples, self.samples.with_name("mean.exr"), self.samples.with_name("mean.exr"), "-o", self.folder / "page.html", "-q"],
                 "explain": ["explain", self.samples, "-o", self.folder / "explained", "--box", "3", "-q"]}
 
@@ -85,7 +87,8 @@ class Memory(unittest.TestCase):
         """Refused with what it needs, by option and by environment, before that is taken; and it takes no more."""
         for name, arguments in self.commands().items():
             with self.subTest(name):
-                need = self.expect_refusal([*arguments, "--max-memory", HEADERS_MB])
+                at = arguments.index("--") if "--" in arguments else len(arguments)  # another command stands behind it
+                need = self.expect_refusal([*arguments[:at], "--max-memory", HEADERS_MB, *arguments[at:]])
                 self.assertEqual(self.expect_refusal(arguments, RPF_MAX_MEMORY_MB=str(HEADERS_MB)), need)
                 code, text, peak = self.run_rpf(*arguments)
                 self.assertEqual(code, 0, text)

@@ -50,7 +50,10 @@ class Known:
 
 
 def wrong_options(text):
-    """Commands and options in a line of rpf, or in an option's span, that there are not."""
+    """Commands and options in a line of rpf, or in an option's span, that there are not. Behind -- stands another command."""
+    text, _, inner = text.partition(" -- ")
+    if re.match(r"(build/release/)?rpf ", inner):
+        return wrong_options(text) + wrong_options(inner)
     words = re.sub(r"[\[\]|(){}]", " ", text).split()
     command, unknown = "", []
     if words[0].endswith("rpf"):

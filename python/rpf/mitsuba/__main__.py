@@ -8,6 +8,7 @@ import re
 import sys
 
 import mitsuba as mi
+import numpy as np
 
 import rpf  # what is compiled is loaded when it is first used: rendering to .rpf does without
 
@@ -41,7 +42,9 @@ def _arguments(arguments):
     parser = argparse.ArgumentParser(prog="python -m rpf.mitsuba", description=__doc__.splitlines()[0])
     parser.add_argument("scene", help="scene.xml")
     parser.add_argument("-o", "--output", required=True, help="sample file: .exr is deep OpenEXR, .rpf raw floats")
-    parser.add_argument("--spp", type=int, default=0, help="samples a pixel; the scene's number if left out")
+    counts = parser.add_mutually_exclusive_group()
+    counts.add_argument("--spp", type=int, default=0, help="samples a pixel; the scene's number if left out")
+    counts.add_argument("--density", metavar="IMAGE", help="samples of each pixel, as `rpf density` and `rpf adapt` say")
     parser.add_argument("--size", type=_size, help="of the film in pixels, such as 640x360; takes a crop window away")
     parser.add_argument("--crop", type=_crop, help="render this part of the film only, such as 320x180+100+50")
     parser.add_argument("--seed", type=int, default=0)
@@ -86,6 +89,16 @@ def _load(arguments):
     return scene, sensor
 
 
+def _density(path):
+    """[height, width] the first channel of an image; None without one."""
+    if path is None:
+        return None
+    try:
+        return np.atleast_3d(np.array(mi.Bitmap(path)))[..., 0]
+    except RuntimeError as failure:
+        raise InputError(f"--density {path}: {failure}") from failure
+
+
 def _check_compiled(arguments):
     """Before the work: what is compiled, and the preset's name."""
     if arguments.output.endswith(".rpf") and not arguments.filter:
@@ -104,7 +117,7 @@ def _render(arguments):
         print("rpf.mitsuba: samples have no pixel filter; the picture differs from the one with this film's", file=sys.stderr)
     raw = arguments.output if arguments.output.endswith(".rpf") else f"{arguments.output}.{os.getpid()}.rpf"
     try:
-        render_to_file(raw, scene, arguments.spp, arguments.seed, sensor)
+        render_to_file(raw, scene, arguments.spp, arguments.seed, sensor, density=_density(arguments.density))
         if raw != arguments.output:
             rpf.convert(raw, arguments.output)
     finally:

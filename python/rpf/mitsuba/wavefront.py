@@ -108,33 +108,62 @@ def recorded(scene, sensor, moving):
     return names
 
 
+def whole_counts(density, width, height):
+    """Samples of each pixel, row by row, of what a density asks for: [height, width] whole numbers, 0 or more."""
+    counts = np.asarray(density)
+    if counts.shape != (height, width):
+        raise InputError(f"a density of {' x '.join(map(str, counts.shape[::-1]))} pixels, where the film has {width} x {height}")
+    if not (np.isfinite(counts).all() and (counts >= 0).all() and (counts == np.rint(counts)).all() and counts.any()):
+        raise InputError("a density is whole numbers of samples, 0 or more and somewhere 1, as `rpf density` writes")
+    return counts.astype(np.uint32).ravel()
+
+
 class _Rendering:
     """What a rendering is before it is rendered: its window, counts, names of planes and metadata."""
 
-    def __init__(self, scene, spp, seed, sensor, moving):
+    def __init__(self, scene, spp, seed, sensor, moving, density):
         sampling_integrator(scene)
         self.scene, self.seed = scene, seed
         self.sensor = scene.sensors()[sensor] if isinstance(sensor, int) else sensor
-        _, self.spp = seeded_sampler(self.sensor, spp, seed)
         self.slots = [name for name in _PLANES if name in recorded(scene, self.sensor, moving)]
         self.names = [name for slot in self.slots for name in _PLANES[slot]]
         self.width, self.height = (int(v) for v in self.sensor.film().crop_size())
         self.window = (*(int(v) for v in self.sensor.film().crop_offset()), self.width, self.height)
-        self.counts = np.full(self.width * self.height, self.spp, np.uint32)
+        self.even = density is None
+        if self.even:
+            _, self.spp = seeded_sampler(self.sensor, spp, seed)
+            self.counts = np.full(self.width * self.height, self.spp, np.uint32)
+        else:
+            self.counts = whole_counts(density, self.width, self.height)
+            self.spp = self.counts.mean()
+        self.first = np.concatenate([[0], np.cumsum(self.counts, dtype=np.int64)])
         self.metadata = {"rpf:seed": int(seed), "rpf:renderer": f"Mitsuba {mi.__version__}"}
+
+    def first_of(self, row):
+        """Number of the first sample of a row."""
+        return int(self.first[row * self.width])
+
+    def _wavefront(self):
+        """-> sampler, pixel of each sample of the film. Where counts vary, numbers are independent, whatever the scene's sampler:
+        others are laid out for one count."""
+        if self.even:
+            sampler, spp = seeded_sampler(self.sensor, self.spp, self.seed)
+            return sampler, dr.arange(mi.UInt32, self.first_of(self.height)) // dr.opaque(mi.UInt32, spp)
+        sampler = mi.load_dict({"type": "independent", "sample_count": 1})
+        sampler.seed(dr.opaque(mi.UInt32, self.seed), self.first_of(self.height))
+        return sampler, mi.UInt32(np.repeat(np.arange(self.counts.size, dtype=np.uint32), self.counts))
 
     def rows(self, first, count):
         """Renders rows of the film. -> slot in a file -> [samples] float32
 
         The sampler belongs to the whole film, so that the numbers are the same for any cut. Other rows are not active, and only
-        the results of these rows are kept; nothing of the film's size is in memory.
+        the results of these rows are kept; where counts do not vary, nothing of the film's size is in memory.
         """
-        sampler, spp = seeded_sampler(self.sensor, self.spp, self.seed)
-        lanes = dr.arange(mi.UInt32, self.width * self.height * spp)
-        samples = self.width * count * spp
-        place = lanes - dr.opaque(mi.UInt32, self.width * first * spp)  # wraps around in rows before these
+        sampler, pixel = self._wavefront()
+        begin, samples = self.first_of(first), self.first_of(first + count) - self.first_of(first)
+        place = dr.arange(mi.UInt32, self.first_of(self.height)) - dr.opaque(mi.UInt32, begin)  # wraps around in rows before these
         active = place < dr.opaque(mi.UInt32, samples)
-        slots = trace(self.scene, self.sensor, sampler, lanes // dr.opaque(mi.UInt32, spp), spp, active)
+        slots = trace(self.scene, self.sensor, sampler, pixel, self.spp, active)
         result = {}
         for slot in self.slots:
             parts = [slots[slot]] if len(_PLANES[slot]) == 1 else list(slots[slot])
@@ -145,27 +174,28 @@ class _Rendering:
         return {name: np.array(values, dtype=np.float32) for name, values in result.items()}
 
 
-def render_samples(scene, spp=0, seed=0, sensor=0, moving=False):
+def render_samples(scene, spp=0, seed=0, sensor=0, moving=False, density=None):
     """Renders a scene and keeps all samples in memory.
 
     spp: samples a pixel, 0 for the scene's number; some samplers round it up. sensor: index, or a sensor.
     moving: something moves while the shutter is open, so that the time of a sample is worth recording.
-    -> SamplePlanes. Raises InputError for an integrator that does not work ray by ray.
+    density: [height, width] samples of each pixel in place of spp; then numbers are independent, whatever the scene's sampler.
+    -> SamplePlanes. Raises InputError for an integrator that does not work ray by ray, or a density that cannot be.
     """
-    rendering = _Rendering(scene, spp, seed, sensor, moving)
+    rendering = _Rendering(scene, spp, seed, sensor, moving, density)
     channels = rendering.rows(0, rendering.height)
     return SamplePlanes(rendering.window, rendering.counts, channels, rendering.metadata)
 
 
-def render_to_file(path, scene, spp=0, seed=0, sensor=0, moving=False, block_bytes=256 << 20):
+def render_to_file(path, scene, spp=0, seed=0, sensor=0, moving=False, density=None, block_bytes=256 << 20):
     """As render_samples, into a raw sample file: in blocks of rows, so that at most about twice block_bytes of samples are in
     memory. The bytes do not depend on it. Raises InputError, OSError."""
-    rendering = _Rendering(scene, spp, seed, sensor, moving)
-    row = rendering.width * rendering.spp
-    rows = max(1, min(rendering.height, block_bytes // (4 * row * len(rendering.names))))
+    rendering = _Rendering(scene, spp, seed, sensor, moving, density)
+    row = rendering.first_of(rendering.height) / rendering.height
+    rows = int(max(1, min(rendering.height, block_bytes // (4 * row * len(rendering.names)))))
     with SampleFile(path, rendering.window, rendering.counts, rendering.names, rendering.metadata) as file:
         for first in range(0, rendering.height, rows):
-            file.put(first * row, rendering.rows(first, min(rows, rendering.height - first)))
+            file.put(rendering.first_of(first), rendering.rows(first, min(rows, rendering.height - first)))
 
 
 def render_reference(scene, spp, seed=0, sensor=0, sets=5):
