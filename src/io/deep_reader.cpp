@@ -3,7 +3,6 @@
 #include "io/deep_reader.h"
 
 #include <fmt/format.h>
-#include <half.h>
 
 #include <algorithm>
 #include <cstring>
@@ -14,6 +13,7 @@
 #include "io/guard.h"
 #include "io/header_checks.h"
 #include "io/reading.h"
+#include "io/spread.h"
 #include "io/unpack.h"
 #include "rpf/error.h"
 
@@ -28,20 +28,6 @@ struct CheckedFile {
 };
 
 std::size_t type_size(PixelType type) { return type == PixelType::half_float ? 2 : 4; }
-
-// Little-endian numbers, as OpenEXR stores them.
-std::uint32_t word_at(const std::uint8_t* b) {
-  return b[0] | b[1] << 8U | b[2] << 16U | static_cast<std::uint32_t>(b[3]) << 24U;
-}
-
-float float_at(const std::uint8_t* b) {
-  const std::uint32_t bits = word_at(b);
-  float value = 0;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
-float half_at(const std::uint8_t* b) { return imath_half_to_float(static_cast<std::uint16_t>(b[0] | b[1] << 8U)); }
 
 SampleFileInfo info_of(const std::string& path, const DeepHeader& header, const SampleReadOptions& options) {
   SampleFileInfo info;
@@ -132,15 +118,8 @@ class RowReader {
   std::vector<std::uint32_t> counts_;
 };
 
-// Where the values of a channel stand in an unpacked row, and where they go.
-struct Target {
-  std::size_t begin = 0;  ///< bytes a sample of the channels before it
-  bool half_float = false;
-  std::size_t column = 0;  ///< of the record
-};
-
-std::vector<Target> targets_of(const CheckedFile& checked, const SampleLayout& layout) {
-  std::vector<Target> targets;
+std::vector<SpreadTarget> targets_of(const CheckedFile& checked, const SampleLayout& layout) {
+  std::vector<SpreadTarget> targets;
   std::size_t begin = 0;
   for (const SampleFileChannel& channel : checked.info.channels) {
     if (!channel.slot.empty())
@@ -148,21 +127,6 @@ std::vector<Target> targets_of(const CheckedFile& checked, const SampleLayout& l
     begin += type_size(channel.type);
   }
   return targets;
-}
-
-// Spreads the values of an unpacked row over its records, some records at a time: these stay in the cache meanwhile.
-void spread(const std::vector<std::uint8_t>& row, const std::vector<Target>& targets, std::size_t samples,
-            float* records, std::size_t stride) {
-  constexpr std::size_t block = 64;
-  for (std::size_t first = 0; first < samples; first += block) {
-    const std::size_t count = std::min(block, samples - first);
-    for (const Target& target : targets) {
-      float* out = records + first * stride + target.column;
-      const std::uint8_t* values = row.data() + target.begin * samples + first * (target.half_float ? 2 : 4);
-      for (std::size_t i = 0; i < count; ++i)
-        out[i * stride] = target.half_float ? half_at(values + 2 * i) : float_at(values + 4 * i);
-    }
-  }
 }
 
 void check_sample_budget(const CheckedFile& file, std::size_t columns, std::uint64_t limit) {
@@ -209,14 +173,14 @@ class DeepRows : public SampleRows {
     for (int row = first; row < end; ++row) {
       const std::vector<std::uint8_t>& unpacked = reader_.samples(row);
       const std::size_t count = unpacked.size() / checked_.sample_bytes;
-      spread(unpacked, targets_, count, samples.record(sample), samples.layout.size());
+      spread(unpacked.data(), targets_, count, samples.record(sample), samples.layout.size());
       sample += count;
     }
   }
 
   CheckedFile checked_;
   SampleBuffer frame_;
-  std::vector<Target> targets_;
+  std::vector<SpreadTarget> targets_;
   RowReader reader_;
 };
 

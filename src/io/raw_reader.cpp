@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -11,12 +10,16 @@
 #include "io/raw_files.h"
 #include "io/raw_header.h"
 #include "io/reading.h"
+#include "io/spread.h"
 
 namespace rpf::io {
 namespace {
 
 constexpr std::size_t word = 4;            // bytes of a count or a value
 constexpr std::size_t block_words = 4096;  // that are read at once
+/// Samples that become records at once: all their values stay in the second cache or near it, and the pieces of a plane
+/// are long enough for a disk.
+constexpr std::size_t piece_samples = 16384;
 
 // A file whose header and size fit together.
 struct CheckedFile {
@@ -31,10 +34,7 @@ void for_each_word(FileBytes& file, std::uint64_t begin, std::uint64_t count, co
   for (std::uint64_t done = 0; done < count; done += block_words) {
     const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(block_words, count - done));
     file.read(begin + done * word, block.data(), part * word, what);
-    for (std::size_t i = 0; i < part; ++i) {
-      const std::uint8_t* b = block.data() + i * word;
-      use(b[0] | b[1] << 8U | b[2] << 16U | static_cast<std::uint32_t>(b[3]) << 24U, done + i);
-    }
+    for (std::size_t i = 0; i < part; ++i) use(word_at(block.data() + i * word), done + i);
   }
 }
 
@@ -100,6 +100,7 @@ class RawRows : public SampleRows {
       : file_(path), checked_(check_file(file_, options)) {
     leave_out_unwanted(checked_.info, options);
     frame_ = empty_buffer(checked_.info);
+    find_planes();
     const auto width = static_cast<std::uint64_t>(frame_.data_window.width);
     first_of_row_.assign(static_cast<std::size_t>(frame_.data_window.height) + 1, 0);
     for_each_count(file_, checked_,
@@ -128,16 +129,29 @@ class RawRows : public SampleRows {
   }
 
  private:
-  /// `before`: samples of the frame.
+  /// Piece by piece of all planes: plane by plane, every record would come from memory once a channel. `before`:
+  /// samples of the frame.
   void fill(SampleBuffer& samples, std::uint64_t before) {
+    const std::size_t count = samples.sample_count();
+    std::vector<std::uint8_t> bytes(planes_.size() * std::min(piece_samples, count) * word);
+    for (std::size_t first = 0; first < count; first += piece_samples) {
+      const std::size_t number = std::min(piece_samples, count - first);
+      std::uint8_t* to = bytes.data();
+      for (const std::uint64_t plane : planes_) {
+        file_.read(plane + (before + first) * word, to, number * word, "the values");
+        to += number * word;
+      }
+      spread(bytes.data(), targets_, number, samples.record(first), samples.layout.size());
+    }
+  }
+
+  /// Where the planes begin that are read, and where their values go.
+  void find_planes() {
     std::uint64_t plane = checked_.planes + frame_.data_window.pixel_count() * word;
     for (const SampleFileChannel& channel : checked_.info.channels) {
       if (!channel.slot.empty()) {
-        const std::size_t column = *samples.layout.find(channel.slot);
-        for_each_word(file_, plane + before * word, samples.sample_count(), "the values",
-                      [&](std::uint32_t bits, std::uint64_t sample) {  // bits, so that a NaN keeps its payload
-                        std::memcpy(samples.record(sample) + column, &bits, word);
-                      });
+        targets_.push_back({planes_.size() * word, false, *frame_.layout.find(channel.slot)});
+        planes_.push_back(plane);
       }
       plane += checked_.info.sample_count * word;
     }
@@ -146,6 +160,8 @@ class RawRows : public SampleRows {
   FileBytes file_;
   CheckedFile checked_;
   SampleBuffer frame_;
+  std::vector<std::uint64_t> planes_;
+  std::vector<SpreadTarget> targets_;
   std::vector<std::uint64_t> first_of_row_;  ///< [row + 1]: samples before it
 };
 

@@ -90,6 +90,11 @@ TEST(Raw, RoundTripsAreLosslessForAnyWindow) {
   }
 }
 
+// More samples than become records at once (16384), and no multiple of it.
+TEST(Raw, RoundTripsAreLosslessForManySamples) {
+  expect_round_trips(make_buffer({3, -2, 7, 5}, [](int pixel) { return 1000U + static_cast<unsigned>(pixel) % 3; }));
+}
+
 TEST(Raw, RoundTripsAreLosslessForAnyCounts) {
   const Window window{0, 0, 7, 5};
   expect_round_trips(make_buffer(window, [](int) { return 0U; }));
