@@ -81,11 +81,11 @@ void mark_missing(float* record, const Columns& columns, CleanFindings& findings
   const bool second = !miss && has_any(columns.second_hit);
   bool any = false;
   const auto mark = [&](const auto& of, bool counts) {
-    for (const std::size_t c : of) {
-      if (!is_missing(record[c])) continue;
-      if (counts) findings.missing_columns[c] = 1;
-      any = any || counts;
-      record[c] = missing;
+    for (const std::size_t c : of) {  // without branches, which no processor would guess
+      const bool is = is_missing(record[c]), is_counted = is && counts;
+      record[c] = is ? missing : record[c];
+      findings.missing_columns[c] = static_cast<char>(findings.missing_columns[c] | static_cast<char>(is_counted));
+      any |= is_counted;
     }
   };
   mark(columns.film, true);
@@ -226,7 +226,7 @@ Cleaning::Cleaning(const SampleBuffer& frame, const Columns& columns, bool clamp
   findings_.missing_columns.resize(frame.layout.size());
 }
 
-void Cleaning::add(SampleBuffer& rows) {
+void Cleaning::add(SampleBuffer& rows, const Seen& seen) {
   const std::size_t first = first_pixel(rows.data_window, frame_.data_window);
   clean_rows(
       rows, first, columns_, clamp_negative_, findings_,
@@ -237,6 +237,7 @@ void Cleaning::add(SampleBuffer& rows) {
           lost_.push_back({first + place, end - begin, {}});
         else
           colors_[first + place] = color_of_samples(rows, columns_, begin, end);
+        if (seen) seen(place, begin, end);
       });
 }
 

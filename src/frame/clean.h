@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -70,9 +71,13 @@ class Cleaning {
   /// `frame`: may be without its samples. It and the columns outlive this.
   Cleaning(const SampleBuffer& frame, const Columns& columns, bool clamp_negative);
 
+  /// Hears of a pixel as soon as it is clean, while the cache still has its samples: its place in the rows, and from
+  /// which to before which sample it has them.
+  using Seen = std::function<void(std::size_t place, std::uint32_t begin, std::uint32_t end)>;
+
   /// Cleans the next rows, whose data window is their part of the frame's. Contradictions of the conventions are noted
   /// on the way, of the samples as they were.
-  void add(SampleBuffer& rows);
+  void add(SampleBuffer& rows, const Seen& seen = {});
   /// Whether a film position was missing so far.
   bool lacks_positions() const;
   /// After all rows.

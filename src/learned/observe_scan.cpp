@@ -46,10 +46,12 @@ ObserveScan::ObserveScan(const SampleBuffer& frame, const Settings& settings)
 }
 
 void ObserveScan::add(SampleBuffer& rows) {
-  cleaning_.add(rows);
+  const std::size_t first = first_pixel(rows.data_window, clean_.frame.data_window);
+  cleaning_.add(rows, [&](std::size_t place, std::uint32_t begin, std::uint32_t end) {
+    include_luminance(rows, first + place, begin, end);
+    include_position(rows, begin, end);
+  });
   if (cleaning_.lacks_positions()) center_missing_positions(rows, clean_.columns, method_);
-  include_luminances(rows);
-  include_positions(rows);
   const auto& weight = clean_.columns.weight;
   for (std::size_t i = 0; weight && i < rows.sample_count(); ++i)
     largest_weight_ = std::max(largest_weight_, rows.record(i)[*weight]);
@@ -57,26 +59,20 @@ void ObserveScan::add(SampleBuffer& rows) {
   leave_constant(rows, plain_, first_plain_);
 }
 
-void ObserveScan::include_luminances(const SampleBuffer& rows) {
-  const std::size_t first = first_pixel(rows.data_window, clean_.frame.data_window);
+void ObserveScan::include_luminance(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin,
+                                    std::uint32_t end) {
   const auto& color = clean_.columns.color;
-  for (std::size_t place = 0; place + 1 < rows.first_sample.size(); ++place) {
-    const std::uint32_t begin = rows.first_sample[place], end = rows.first_sample[place + 1];
-    double sum = 0;
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const float* record = rows.record(i);
-      sum += luminance(record[color[0]], record[color[1]], record[color[2]]);
-    }
-    luminances_[first + place] = begin < end ? std::max(sum / (end - begin), 0.0) : 0;
+  double sum = 0;
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const float* record = rows.record(i);
+    sum += luminance(record[color[0]], record[color[1]], record[color[2]]);
   }
+  luminances_[pixel] = begin < end ? std::max(sum / (end - begin), 0.0) : 0;
 }
 
-void ObserveScan::include_positions(const SampleBuffer& rows) {
-  for (std::size_t place = 0; place + 1 < rows.first_sample.size(); ++place) {
-    const std::uint32_t first = rows.first_sample[place];
-    if (first == rows.first_sample[place + 1] || !view_.has_position(rows.record(first))) continue;
-    for (std::size_t k = 0; k < 3; ++k) positions_[k].push_back(view_.position(rows.record(first), k));
-  }
+void ObserveScan::include_position(const SampleBuffer& rows, std::uint32_t begin, std::uint32_t end) {
+  if (begin == end || !view_.has_position(rows.record(begin))) return;
+  for (std::size_t k = 0; k < 3; ++k) positions_[k].push_back(view_.position(rows.record(begin), k));
 }
 
 void ObserveScan::leave_constant(const SampleBuffer& rows, std::vector<int>& inputs, FirstValues& first) const {

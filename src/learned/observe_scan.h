@@ -48,8 +48,9 @@ class ObserveScan {
     float values[RPF_INPUTS] = {};
   };
 
-  void include_luminances(const SampleBuffer& rows);
-  void include_positions(const SampleBuffer& rows);
+  /// Of a pixel with the samples begin .. end - 1 of the rows.
+  void include_luminance(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin, std::uint32_t end);
+  void include_position(const SampleBuffer& rows, std::uint32_t begin, std::uint32_t end);
   /// Leaves in `inputs` those that are for all samples what they are for the first of all.
   void leave_constant(const SampleBuffer& rows, std::vector<int>& inputs, FirstValues& first) const;
   float exposure() const;
