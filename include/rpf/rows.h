@@ -69,14 +69,18 @@ struct RowSurvey {
 /// Reads every row once, some at a time. Throws Error(input).
 RowSurvey survey_rows(SampleRows& rows);
 
-/// What filter_rows() takes of a frame whose rows are read when they are needed, by a method that can do so.
+/// Whether filter_rows() with these settings reads rows when they are needed where they do not fit into memory: not
+/// where channels without information are to be found, and not with methods that filter pixels.
+bool can_stream(const Settings& settings);
+
+/// What filter_rows() takes of a frame whose rows are read when they are needed.
 struct RowsMemory {
-  std::uint64_t bytes = 0;  ///< at the least
+  std::uint64_t bytes = 0;  ///< of Method::learned at the least: it keeps more rows where there is room
   int rows_read = 0;        ///< at once, about
-  int rows_filtered = 0;    ///< at once: a band
+  int rows_held = 0;        ///< with what passes read around them; of Method::learned 0
 };
 
-/// Of Method::learned. Throws Error(usage) as filter() does.
+/// Of settings that can_stream(). Throws Error(usage) as filter() does.
 RowsMemory predict_rows_memory(const SampleRows& rows, std::uint32_t max_samples_per_pixel, const Settings& settings);
 
 }  // namespace rpf

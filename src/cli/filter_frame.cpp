@@ -76,17 +76,16 @@ void write_results(const FilterOptions& options, const Result& result) {
 }
 
 /// Whether a frame that does not fit is read by rows.
-bool can_stream(const OpenFrame& frame) {
-  return frame.settings.method == Method::learned && frame.options.report.empty() && frame.options.time_budget.empty();
+bool is_streamed(const OpenFrame& frame) {
+  return can_stream(frame.settings) && !frame.input.is_image() && frame.options.report.empty() &&
+         frame.options.time_budget.empty();
 }
 
 /// Of a frame that does not fit: what its rows take. Refuses where that is too much too.
 std::uint64_t check_streamed(const OpenFrame& frame, const SampleReadOptions& reading, bool tell) {
   const auto rows = open_sample_rows(frame.options.input, reading);
   const RowsMemory need = predict_rows_memory(*rows, frame.input.info.max_samples, frame.settings);
-  if (tell)
-    print("rows are read as they are needed, about {} at once: {:.0f} MB at least\n", need.rows_read,
-          static_cast<double>(need.bytes) / megabyte);
+  if (tell) print("{}\n", text_of(need));
   check_need(frame.input.info, "filtering, with rows read as they are needed,", need.bytes, frame.settings.max_memory);
   return need.bytes;
 }
@@ -154,7 +153,7 @@ OpenFrame open_frame(const FilterOptions& options) {
   const bool tell = options.verbose || options.dry_run;
   frame.reading.slots = needed_layout(info, frame.settings).slots;
   frame.by_rows =
-      frame.by_rows || (can_stream(frame) && predicted_memory(info, frame.settings) > frame.settings.max_memory);
+      frame.by_rows || (is_streamed(frame) && predicted_memory(info, frame.settings) > frame.settings.max_memory);
   if (!frame.by_rows)
     frame.need = check_budget(frame.input, frame.settings, tell, !options.report.empty());
   else if (options.rows.empty() && options.facts.empty())

@@ -67,11 +67,9 @@ void print_need(const SampleFileInfo& info, const SampleRows& rows, const std::s
   const bool fits = need <= limit;
   print("  predicted peak memory, {} {}, {} threads: {:.0f} MB{}\n", name, kind, settings.threads,
         static_cast<double>(need) / megabyte, fits ? "" : ", more than the limit");
-  if (fits || settings.method != Method::learned) return;
+  if (fits) return;
   const RowsMemory by_rows = predict_rows_memory(rows, info.max_samples, settings);
-  if (by_rows.bytes <= limit)
-    print("    so about {} rows are read at once, as they are needed: {:.0f} MB at least\n", by_rows.rows_read,
-          static_cast<double>(by_rows.bytes) / megabyte);
+  if (by_rows.bytes <= limit) print("    so {}\n", text_of(by_rows));
 }
 
 void print_memory(const SampleFileInfo& info, const SampleRows& rows, std::uint64_t limit) {

@@ -29,6 +29,15 @@ void check_need(const SampleFileInfo& info, const char* doing, std::uint64_t nee
                             static_cast<double>(need) / megabyte, static_cast<double>(limit) / megabyte, help));
 }
 
+std::string text_of(const RowsMemory& need) {
+  const double need_mb = static_cast<double>(need.bytes) / megabyte;
+  if (need.rows_held == 0)
+    return fmt::format("rows are read as they are needed, about {} at once: {:.0f} MB at least", need.rows_read,
+                       need_mb);
+  return fmt::format("rows are read as they are needed, {} at once, {} in memory: {:.0f} MB", need.rows_read,
+                     need.rows_held, need_mb);
+}
+
 std::uint64_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -6,6 +6,7 @@
 
 #include "rpf/filter.h"
 #include "rpf/io.h"
+#include "rpf/rows.h"
 #include "rpf/settings.h"
 
 namespace rpf::cli {
@@ -24,6 +25,9 @@ constexpr const char* fewer_channels = ", lower --threads or leave channels out 
 /// limit. `doing`: "filtering".
 void check_need(const SampleFileInfo& info, const char* doing, std::uint64_t need, std::uint64_t limit,
                 const char* help = fewer_channels);
+
+/// "rows are read as they are needed, ..."
+std::string text_of(const RowsMemory& need);
 
 /// Bytes that this process has held at most so far.
 std::uint64_t peak_memory();

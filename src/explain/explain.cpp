@@ -13,6 +13,7 @@
 #include "run/driver.h"
 #include "run/informative.h"
 #include "run/memory.h"
+#include "run/pass_summary.h"
 #include "run/progress_meter.h"
 #include "run/provenance.h"
 #include "run/threads.h"
@@ -69,7 +70,7 @@ class Run {
     load_backend(backend_, settings_, prepared_.frame, std::move(prepared_.colors), plan_, meter);
     const std::vector<float> mean = resolved();
     if (traced_) result.pixel = explain_trace(backend_->trace(0, *traced_), prepared_, plan_, geometry_.data_window);
-    for (const Window& tile : cut_into_tiles(plan_, 0, control_, threads_)) {
+    for (const Window& tile : cut_into_tiles(plan_, 0, plan_.passes[0].region, control_, threads_)) {
       backend_->run(0, tile);
       layers.add_tile(*backend_, tile);
       meter.add(0, tile.pixel_count());

@@ -18,8 +18,8 @@ struct FrameFindings {
   CleanReport cleaned;
   std::vector<std::string> constant;  ///< selected slots
   float position_diagonal = 0;        ///< FrameFacts
-  /// What takes the frame at once, so that a scan does not find it: FrameFacts, and PreparedFrame, where the settings
-  /// ask for them.
+  /// What a scan does not find, because it takes the rows once more, or all at once: FrameFacts, and PreparedFrame,
+  /// where the settings ask for them.
   std::vector<FeatureSpread> feature_spread;
   std::vector<std::string> uninformative;
 };

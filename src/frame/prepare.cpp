@@ -44,7 +44,11 @@ PreparedFrame prepare(SampleBuffer samples, const Settings& settings) {
   const SampleBuffer frame = without_samples(samples);
   FrameScan scan(frame, settings);
   scan.add(samples);
-  return prepare_rows(std::move(samples), frame, scan.findings(), settings);
+  PreparedFrame result = prepare_rows(std::move(samples), frame, scan.findings(), settings);
+  if (settings.method == Method::cross_bilateral || settings.method == Method::sbf ||
+      settings.method == Method::axis_aligned)
+    result.facts.feature_spread = spread_of_features(result.frame, result.facts.variables);
+  return result;
 }
 
 PreparedFrame prepare_rows(SampleBuffer rows, const SampleBuffer& whole, const FrameFindings& found,
@@ -67,10 +71,7 @@ PreparedFrame prepare_rows(SampleBuffer rows, const SampleBuffer& whole, const F
   frame.has_missing = std::any_of(frame.records.begin(), frame.records.end(), [](float x) { return std::isnan(x); });
   frame.first_sample =
       first_sample_in_frame(std::move(clean.samples.first_sample), clean.samples.data_window, whole.data_window);
-  if (settings.method == Method::cross_bilateral || settings.method == Method::sbf ||
-      settings.method == Method::axis_aligned)
-    result.facts.feature_spread =
-        found.feature_spread.empty() ? spread_of_features(frame, result.facts.variables) : found.feature_spread;
+  result.facts.feature_spread = found.feature_spread;
   return std::move(result);
 }
 

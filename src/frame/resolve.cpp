@@ -36,10 +36,18 @@ void mean_of_samples(const Frame& frame, std::size_t pixel, const std::vector<fl
 }  // namespace
 
 std::vector<float> resolve(const Frame& frame, const std::vector<float>& colors, std::size_t carried) {
-  const std::size_t pixels = frame.first_sample.size() - 1;
-  std::vector<float> image(pixels * carried, 0.0F);
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
-    if (frame.samples(pixel) > 0) mean_of_samples(frame, pixel, colors, carried, image.data() + pixel * carried);
+  return resolve_rows(frame, colors, carried, 0, frame.height);
+}
+
+std::vector<float> resolve_rows(const Frame& frame, const std::vector<float>& colors, std::size_t carried,
+                                int first_row, int end_row) {
+  const std::size_t width = static_cast<std::size_t>(frame.width);
+  const std::size_t first = static_cast<std::size_t>(first_row) * width,
+                    end = static_cast<std::size_t>(end_row) * width;
+  std::vector<float> image((end - first) * carried, 0.0F);
+  for (std::size_t pixel = first; pixel < end; ++pixel)
+    if (frame.samples(pixel) > 0)
+      mean_of_samples(frame, pixel, colors, carried, image.data() + (pixel - first) * carried);
   return image;
 }
 

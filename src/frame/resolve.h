@@ -13,6 +13,10 @@ namespace rpf {
 /// samples. `colors`: [sample][carried], scaled radiance.
 std::vector<float> resolve(const Frame& frame, const std::vector<float>& colors, std::size_t carried);
 
+/// The same of the pixels of some rows.
+std::vector<float> resolve_rows(const Frame& frame, const std::vector<float>& colors, std::size_t carried,
+                                int first_row, int end_row);
+
 /// The mean color of a pixel's samples, from the records, in double: for what is told, not for what is filtered.
 std::array<double, 3> mean_color(const Frame& frame, std::size_t pixel);
 

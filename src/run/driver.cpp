@@ -12,44 +12,18 @@
 #include "run/estimate_bands.h"
 #include "run/informative.h"
 #include "run/memory.h"
+#include "run/pass_summary.h"
+#include "run/picture.h"
 #include "run/progress_meter.h"
 #include "run/provenance.h"
+#include "run/row_window.h"
 #include "run/streamed_frame.h"
+#include "run/streamed_passes.h"
 #include "run/threads.h"
 #include "run/tiles.h"
 
 namespace rpf {
 namespace {
-
-using Pixels = std::vector<float>;  ///< [pixel][carried]
-
-/// Sum of R, G and B over the crop.
-double energy(const Pixels& pixels, const FrameFacts& facts) {
-  double sum = 0;
-  for (int y = facts.crop.y; y < facts.crop.y + facts.crop.height; ++y)
-    for (int x = facts.crop.x; x < facts.crop.x + facts.crop.width; ++x) {
-      const float* pixel = pixels.data() + (static_cast<std::size_t>(y) * facts.width + x) * facts.carried;
-      sum += static_cast<double>(pixel[0]) + pixel[1] + pixel[2];
-    }
-  return sum;
-}
-
-/// Copies some of the carried channels of the crop into an image, undoing the radiance scale for the color.
-Image image_of(const Pixels& pixels, const PreparedFrame& prepared, const Image& geometry, std::size_t first,
-               std::size_t last) {
-  const FrameFacts& facts = prepared.facts;
-  Image image = geometry;
-  image.channels.assign(prepared.carried_names.begin() + static_cast<std::ptrdiff_t>(first),
-                        prepared.carried_names.begin() + static_cast<std::ptrdiff_t>(last));
-  image.pixels.reserve(facts.crop.pixel_count() * image.channel_count());
-  for (int y = facts.crop.y; y < facts.crop.y + facts.crop.height; ++y)
-    for (int x = facts.crop.x; x < facts.crop.x + facts.crop.width; ++x)
-      for (std::size_t c = first; c < last; ++c) {
-        const float value = pixels[(static_cast<std::size_t>(y) * facts.width + x) * facts.carried + c];
-        image.pixels.push_back(c < 3 ? value / prepared.facts.radiance_scale : value);
-      }
-  return image;
-}
 
 struct ValueRange {
   float least = 0, most = 0;
@@ -64,12 +38,6 @@ ValueRange range_of(const PreparedFrame& prepared, std::size_t channel) {
     range.most = std::max(range.most, prepared.colors[i]);
   }
   return range;
-}
-
-/// Channels of the image proper: R, G, B, and A where there is one. The features follow.
-std::size_t color_channels(const PreparedFrame& prepared) {
-  const auto& names = prepared.carried_names;
-  return names.size() > 3 && names[3] == "A" ? 4 : 3;
 }
 
 /// One run: frame, plan and backend together.
@@ -97,9 +65,9 @@ class Run {
       const Control& control)
       : Run(rows, frame, settings, control) {
     backend_ = make_backend(settings);
-    clean_again(rows, find_columns(frame, settings.clamp_infinite), settings.clamp_negative);
     if (const auto* observed = std::get_if<ObservedFindings>(&facts)) {
       take(observe_frame(frame, *observed, settings, find_network(settings.model)));
+      clean_again(rows, find_columns(frame, settings.clamp_infinite), settings.clamp_negative);
       const Window window = rows.data_window;
       prepared_.frame.first_sample =
           first_sample_in_frame(observe_rows(std::move(rows), frame, *observed, settings, estimate_plan_, prepared_),
@@ -107,31 +75,45 @@ class Run {
       return;
     }
     const auto& found = std::get<FrameFindings>(facts);
-    prepared_ = prepare_rows(std::move(rows), frame, found, settings);
-    drop_channels(prepared_, found.uninformative);
+    prepared_ = prepare_again(std::move(rows), frame, found, settings);
     plan_ = make_plan(prepared_.facts, settings);
   }
 
-  /// The learned estimator on rows that are read when they are needed.
+  /// Of rows that are read when they are needed.
   Run(SampleRows& rows, ScannedRows scanned, const Settings& settings, const Control& control, std::uint64_t at_once)
       : Run(settings, control, rows.frame()) {
-    found_ = std::move(std::get<ObservedFindings>(scanned.facts));
-    raw_ = streamed_size(rows, found_.cleaned.most_samples);
     backend_ = make_backend(settings);
-    take(observe_frame(rows.frame(), found_, settings, find_network(settings.model)));
-    prepared_.frame.first_sample = std::move(scanned.first_sample);
-    const std::uint64_t need = bands().bytes;
-    const std::uint64_t left = settings.max_memory > need ? settings.max_memory - need : 0;
-    stream_ = std::make_unique<StreamedFrame>(rows, found_, settings, estimate_plan_, prepared_,
-                                              std::move(scanned.kept), left / 4 * 3, at_once);
+    if (settings.method == Method::learned)
+      stream_estimate(rows, std::move(scanned), at_once);
+    else
+      stream_passes(rows, std::get<FrameFindings>(std::move(scanned.facts)), at_once);
   }
 
   Result finish(const PassObserver& before_pass) {
     if (settings_.method == Method::learned) return estimate();
+    if (passes_) return finish_streamed();
     return filters_pixels(settings_.method) ? filter_pixels() : run_passes(before_pass);
   }
 
  private:
+  void stream_estimate(SampleRows& rows, ScannedRows scanned, std::uint64_t at_once) {
+    found_ = std::move(std::get<ObservedFindings>(scanned.facts));
+    raw_ = streamed_size(rows, found_.cleaned.most_samples);
+    take(observe_frame(rows.frame(), found_, settings_, find_network(settings_.model)));
+    prepared_.frame.first_sample = std::move(scanned.first_sample);
+    const std::uint64_t need = bands().bytes;
+    const std::uint64_t left = settings_.max_memory > need ? settings_.max_memory - need : 0;
+    stream_ = std::make_unique<StreamedFrame>(rows, found_, settings_, estimate_plan_, prepared_,
+                                              std::move(scanned.kept), left / 4 * 3, at_once);
+  }
+
+  void stream_passes(SampleRows& rows, FrameFindings found, std::uint64_t at_once) {
+    frame_found_ = std::move(found);
+    prepared_ = prepare_without_samples(rows.frame(), frame_found_, settings_);
+    plan_ = make_plan(prepared_.facts, settings_);
+    passes_ = std::make_unique<StreamedPasses>(rows, frame_found_, settings_, plan_, prepared_, at_once);
+  }
+
   /// What does not depend on how samples come.
   Run(const Settings& settings, const Control& control, const SampleBuffer& frame)
       : settings_(settings), control_(control), threads_(thread_count(settings)) {
@@ -166,11 +148,21 @@ class Run {
       if (before_pass) before_pass(*backend_, plan_, pass);
       PassReport report = run_pass(pass, meter);
       pixels = resolved();
-      const double kept = energy(pixels, prepared_.facts);
-      report.energy = kept == plain_energy ? 1 : kept / plain_energy;
+      report.energy = share_of_energy(energy(pixels, prepared_.facts), plain_energy);
       result.report.passes.push_back(report);
     }
     describe(result, pixels);
+    result.report.seconds = meter.seconds();
+    return result;
+  }
+
+  /// The same of rows that are read when they are needed.
+  Result finish_streamed() {
+    ProgressMeter meter(plan_, control_);
+    passes_->run(backend_, control_, meter);
+    Result result;
+    result.report.passes = passes_->reports();
+    describe(result, passes_->pixels());
     result.report.seconds = meter.seconds();
     return result;
   }
@@ -221,8 +213,7 @@ class Run {
   /// The report of what has no passes.
   void describe_at_once(Result& result, const Pixels& pixels, double plain_energy, const ProgressMeter& meter) {
     PassReport report;
-    const double kept = energy(pixels, prepared_.facts);
-    report.energy = kept == plain_energy ? 1 : kept / plain_energy;
+    report.energy = share_of_energy(energy(pixels, prepared_.facts), plain_energy);
     report.seconds = result.report.seconds = meter.seconds();
     result.report.passes.push_back(report);
     describe(result, pixels);
@@ -241,7 +232,7 @@ class Run {
     const PassPlan& plan = plan_.passes[static_cast<std::size_t>(pass)];
     const double start = meter.seconds();
     meter.add(pass, 0);
-    for (const Window& tile : cut_into_tiles(plan_, pass, control_, threads_)) {
+    for (const Window& tile : cut_into_tiles(plan_, pass, plan.region, control_, threads_)) {
       backend_->run(pass, tile);
       meter.add(pass, tile.pixel_count());
     }
@@ -254,10 +245,7 @@ class Run {
   void describe(Result& result, const Pixels& pixels) {
     describe_input(*backend_, prepared_, result.report);
     geometry_.metadata = provenance(geometry_.metadata, settings_, result.report);
-    const std::size_t colors = color_channels(prepared_);
-    result.image = image_of(pixels, prepared_, geometry_, 0, colors);
-    if (prepared_.carried_names.size() > colors)
-      result.features = image_of(pixels, prepared_, geometry_, colors, prepared_.carried_names.size());
+    make_images(pixels, prepared_, geometry_, result);
   }
 
   const Settings& settings_;
@@ -270,34 +258,14 @@ class Run {
   EstimatePlan estimate_plan_;
   PixelPlan pixel_plan_;
   ObservedFindings found_;
-  std::unique_ptr<StreamedFrame> stream_;  ///< where samples are read when they are needed
-  std::unique_ptr<Backend> backend_;       ///< last: it refers to frame and plan
+  FrameFindings frame_found_;
+  // Where samples are read when they are needed:
+  std::unique_ptr<StreamedFrame> stream_;
+  std::unique_ptr<StreamedPasses> passes_;
+  std::unique_ptr<Backend> backend_;  ///< last: it refers to frame and plan
 };
 
 }  // namespace
-
-PassReport summarize(const std::vector<PixelStatistics>& statistics, const Frame& frame, const PassPlan& pass) {
-  PassReport report;
-  report.box_width = pass.box_width;
-  double pixels = 0, accepted = 0, drawn = 0;
-  for (int y = pass.region.y; y < pass.region.y + pass.region.height; ++y)
-    for (int x = pass.region.x; x < pass.region.x + pass.region.width; ++x) {
-      const std::size_t pixel = static_cast<std::size_t>(y) * frame.width + x;
-      const PixelStatistics& s = statistics[pixel];
-      if (s.neighbors == 0) continue;
-      ++pixels;
-      drawn += s.drawn;
-      accepted += s.neighbors - frame.samples(pixel);
-      report.neighbors += s.neighbors;
-      report.fraction_random += s.fraction_random;
-      report.alpha += s.alpha;
-      report.beta += s.beta;
-    }
-  const double n = std::max(pixels, 1.0);
-  report.acceptance = drawn > 0 ? accepted / drawn : 0;
-  for (double* mean : {&report.neighbors, &report.fraction_random, &report.alpha, &report.beta}) *mean /= n;
-  return report;
-}
 
 void describe_input(const Backend& backend, const PreparedFrame& prepared, Report& report) {
   report.backend = backend.description();

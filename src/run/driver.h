@@ -24,16 +24,12 @@ Result run_filter(SampleBuffer samples, const Settings& settings, const Control&
 Result run_rows(SampleBuffer rows, const SampleBuffer& frame, const RowFacts& facts, const Settings& settings,
                 const Control& control);
 
-/// The learned estimator on rows that are read when they are needed, in as little memory as predict_rows_memory() says.
-/// `scanned`: of the learned method, as far as rows are needed.
+/// The same of rows that are read when they are needed, at most `at_once` bytes of them, or one row, at a time: in as
+/// little memory as predict_rows_memory() says. `scanned`: as far as rows are needed.
 Result run_streamed(SampleRows& rows, ScannedRows scanned, const Settings& settings, const Control& control,
                     std::uint64_t at_once = bytes_at_once);
 
 /// What a report says beside the passes: backend, modeled channels, notes about the input.
 void describe_input(const Backend& backend, const PreparedFrame& prepared, Report& report);
-
-/// Means in a fixed order over the pixels, so that the report too does not depend on threads or tiles. Energy and
-/// seconds are the caller's.
-PassReport summarize(const std::vector<PixelStatistics>& statistics, const Frame& frame, const PassPlan& pass);
 
 }  // namespace rpf

@@ -28,21 +28,6 @@ std::uint64_t sample_floats(std::uint64_t read, std::uint64_t room, std::uint64_
   return std::max(preparing + carried, records + 2 * carried);
 }
 
-/// Per pixel: offsets, statistics, images before and after a pass, the result.
-std::uint64_t pixel_bytes(std::uint64_t carried) { return 2 * word + sizeof(PixelStatistics) + 3 * word * carried; }
-
-FrameFacts facts_of(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {
-  FrameFacts facts;
-  facts.width = size.width;
-  facts.height = std::numeric_limits<int>::max();  // what the box is, the frame has room for
-  facts.max_samples_per_pixel = size.max_samples_per_pixel;
-  const Selection selection = select_channels(layout, settings);
-  facts.variables.random_names = selection.random;
-  facts.variables.feature_names = selection.features;
-  facts.carried = carried_count(layout, settings);
-  return facts;
-}
-
 std::uint64_t pixel_method_need(const FrameSize& size, const SampleLayout& layout, std::uint64_t room, FrameFacts facts,
                                 const Settings& settings) {
   facts.width = std::max(size.width, 1);
@@ -58,7 +43,7 @@ std::uint64_t memory_need(const FrameSize& size, const SampleLayout& layout, std
                           const Settings& settings) {
   if (settings.method == Method::learned)
     return estimate_bands(size, layout, room, settings, *make_backend(settings)).bytes;
-  const FrameFacts facts = facts_of(size, layout, settings);
+  const FrameFacts facts = largest_facts(size, layout, settings);
   if (filters_pixels(settings.method)) return pixel_method_need(size, layout, room, facts, settings);
   Settings without_crop = settings;
   without_crop.crop.reset();
@@ -77,6 +62,20 @@ std::uint32_t most_samples(const std::vector<std::uint32_t>& first_sample) {
 }
 
 }  // namespace
+
+std::uint64_t pixel_bytes(std::uint64_t carried) { return 2 * word + sizeof(PixelStatistics) + 3 * word * carried; }
+
+FrameFacts largest_facts(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {
+  FrameFacts facts;
+  facts.width = size.width;
+  facts.height = std::numeric_limits<int>::max();  // what the box is, the frame has room for
+  facts.max_samples_per_pixel = size.max_samples_per_pixel;
+  const Selection selection = select_channels(layout, settings);
+  facts.variables.random_names = selection.random;
+  facts.variables.feature_names = selection.features;
+  facts.carried = carried_count(layout, settings);
+  return facts;
+}
 
 FrameSize frame_size(const SampleBuffer& samples) {
   return {samples.data_window.pixel_count(), samples.sample_count(), most_samples(samples.first_sample),

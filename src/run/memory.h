@@ -1,6 +1,7 @@
 // Memory is accounted for before it is taken.
 #pragma once
 
+#include "frame/facts.h"
 #include "rpf/filter.h"
 #include "rpf/rows.h"
 #include "rpf/samples.h"
@@ -15,6 +16,12 @@ std::uint64_t room_of(const SampleBuffer& samples);
 
 /// Values a sample that are averaged: color, alpha, and the features where they are wanted.
 std::size_t carried_count(const SampleLayout& layout, const Settings& settings);
+
+/// What is known at the most of a frame whose samples are not: all channels vary; wherever a box is it has room.
+FrameFacts largest_facts(const FrameSize& size, const SampleLayout& layout, const Settings& settings);
+
+/// Bytes per pixel of passes: offsets, statistics, images before and after a pass, the result.
+std::uint64_t pixel_bytes(std::uint64_t carried);
 
 /// What was read, before it was prepared.
 struct RawSize {

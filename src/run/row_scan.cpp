@@ -6,11 +6,13 @@
 #include <utility>
 
 #include "frame/clean_frame.h"
+#include "frame/feature_spread.h"
 #include "frame/prepare.h"
 #include "rpf/error.h"
 #include "rpf/methods.h"
 #include "run/informative.h"
 #include "run/progress_meter.h"
+#include "run/row_window.h"
 
 namespace rpf {
 namespace {
@@ -81,16 +83,32 @@ ObservedFindings find_observed(SampleRows& rows, const Settings& settings, Progr
   return scan.findings();
 }
 
-/// What takes all samples at once.
-void find_in_core(SampleRows& rows, const Settings& settings, FrameFindings& found) {
+/// Means first and then, of all rows once more, deviations.
+std::vector<FeatureSpread> find_spread(SampleRows& rows, const Settings& settings, const FrameFindings& found,
+                                       ProgressMeter& meter, std::uint64_t at_once) {
+  const PreparedFrame known = prepare_without_samples(rows.frame(), found, settings);
+  FeatureSpreadScan scan(known.facts.variables);
+  const auto for_all = [&](void (FeatureSpreadScan::*add)(const Frame&)) {
+    const auto use = [&](SampleBuffer& part) {
+      (scan.*add)(prepare_again(std::move(part), rows.frame(), found, settings).frame);
+      return true;
+    };
+    for_all_rows(rows, at_once, use, [&](double /*part*/) { meter.check(); });
+  };
+  for_all(&FeatureSpreadScan::add);
+  for_all(&FeatureSpreadScan::add_again);
+  return scan.spread();
+}
+
+/// Which channels tell nothing takes all samples at once.
+std::vector<std::string> find_uninformative(SampleRows& rows, const Settings& settings, const FrameFindings& found) {
   const int height = rows.frame().data_window.height;
   check_rows(rows, 0, height, found.cleaned.most_samples, settings);
   SampleBuffer all = rows.read(0, height);
   clean_again(all, find_columns(rows.frame(), settings.clamp_infinite), settings.clamp_negative);
   PreparedFrame prepared = prepare_rows(std::move(all), rows.frame(), found, settings);
-  found.feature_spread = prepared.facts.feature_spread;
-  if (settings.method == Method::rpf) drop_uninformative(prepared, settings);
-  found.uninformative = prepared.uninformative;
+  drop_uninformative(prepared, settings);
+  return prepared.uninformative;
 }
 
 FrameFindings find_frame(SampleRows& rows, const Settings& settings, ProgressMeter& meter, std::uint64_t at_once) {
@@ -101,8 +119,10 @@ FrameFindings find_frame(SampleRows& rows, const Settings& settings, ProgressMet
   };
   for_all_rows(rows, at_once, add, [&](double part) { meter.add_part(part); });
   FrameFindings found = scan.findings();
-  if (settings.method == Method::cross_bilateral || (settings.method == Method::rpf && settings.drop_uninformative))
-    find_in_core(rows, settings, found);
+  if (settings.method == Method::cross_bilateral)
+    found.feature_spread = find_spread(rows, settings, found, meter, at_once);
+  if (settings.method == Method::rpf && settings.drop_uninformative)
+    found.uninformative = find_uninformative(rows, settings, found);
   return found;
 }
 

@@ -10,11 +10,13 @@
 #include "learned/network_file.h"
 #include "plan/box.h"
 #include "rpf/error.h"
+#include "rpf/methods.h"
 #include "rpf/outputs.h"
 #include "run/backends.h"
 #include "run/driver.h"
 #include "run/estimate_bands.h"
 #include "run/memory.h"
+#include "run/pass_bands.h"
 #include "run/row_facts.h"
 #include "run/row_scan.h"
 
@@ -84,21 +86,34 @@ Result filter_rows(SampleRows& rows, const Settings& settings, const std::string
   const CleanReport& cleaned = std::visit([](const auto& f) -> const CleanReport& { return f.cleaned; }, scanned.facts);
   const auto* observed = std::get_if<ObservedFindings>(&scanned.facts);
   const std::uint64_t need = rows_need(rows, first, end, cleaned.most_samples, settings);
-  if (observed == nullptr || settings.max_memory == 0 || need <= settings.max_memory) {
+  if (!can_stream(settings) || settings.max_memory == 0 || need <= settings.max_memory) {
     check_rows(rows, first, end, cleaned.most_samples, settings);
     scanned.first_sample = {};
     scanned.kept = {};
     return run_rows(rows.read(first, end), frame, scanned.facts, settings, control);
   }
   check_streamed(rows, cleaned.most_samples, settings);
+  if (observed == nullptr) {
+    const std::uint64_t at_once = pass_bands(rows, cleaned.most_samples, settings, *make_backend(settings)).at_once;
+    return run_streamed(rows, std::move(scanned), settings, control, at_once);
+  }
   if (scanned.first_sample.empty()) count_rows(rows, walk, cleaned, settings, scanned);
   return run_streamed(rows, std::move(scanned), settings, control);
 }
 
+bool can_stream(const Settings& settings) {
+  return !filters_pixels(settings.method) && !(settings.method == Method::rpf && settings.drop_uninformative);
+}
+
 RowsMemory predict_rows_memory(const SampleRows& rows, std::uint32_t max_samples_per_pixel, const Settings& settings) {
+  const std::unique_ptr<Backend> backend = make_backend(settings);
+  if (settings.method != Method::learned) {
+    const PassBands bands = pass_bands(rows, max_samples_per_pixel, settings, *backend);
+    return {bands.bytes, bands.rows_read, bands.rows_held};
+  }
   const RawSize raw = streamed_size(rows, max_samples_per_pixel);
-  const EstimateBands bands = estimate_bands(raw.size, raw.layout, raw.room, settings, *make_backend(settings));
-  return {bands.bytes, rows.end_within(0, bytes_at_once), bands.rows};
+  const EstimateBands bands = estimate_bands(raw.size, raw.layout, raw.room, settings, *backend);
+  return {bands.bytes, rows.end_within(0, bytes_at_once), 0};
 }
 
 }  // namespace rpf

@@ -21,10 +21,11 @@ std::vector<Window> cut(const Window& region, std::size_t pixels) {
 
 }  // namespace
 
-std::vector<Window> cut_into_tiles(const Plan& plan, int pass, const Control& control, int threads) {
+std::vector<Window> cut_into_tiles(const Plan& plan, int pass, const Window& part, const Control& control,
+                                   int threads) {
   const PassPlan& p = plan.passes[static_cast<std::size_t>(pass)];
   const std::size_t pixels = control.tile_pixels > 0 ? control.tile_pixels : tile_pixels(p, threads);
-  return cut(p.region, pixels);
+  return cut(part, pixels);
 }
 
 }  // namespace rpf

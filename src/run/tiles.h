@@ -8,7 +8,7 @@
 
 namespace rpf {
 
-/// The tiles of a pass, in their order.
-std::vector<Window> cut_into_tiles(const Plan& plan, int pass, const Control& control, int threads);
+/// The tiles of a part of a pass's region, in their order.
+std::vector<Window> cut_into_tiles(const Plan& plan, int pass, const Window& part, const Control& control, int threads);
 
 }  // namespace rpf

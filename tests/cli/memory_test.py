@@ -72,7 +72,7 @@ class Memory(unittest.TestCase):
         self.assertEqual(self.run_rpf("scene", "dof", "--size", "300x200", "--spp", "4", "--seed", "2", "-q", "-o", other)[0], 0)
         self.assertEqual(self.run_rpf(self.samples, "-o", self.samples.with_name("mean.exr"), "--boxes", "none", "-q")[0], 0)
         rounds = [RPF, "scene", "dof", "--size", "300x200", "--spp", "1", "-q", "--density", "{density}", "--seed", "{seed}", "-o", "{output}"]
-        return {"filter": [self.samples, "-o", output, "--boxes", "3", "-q"],
+        return {"filter": [self.samples, "-o", output, "--boxes", "3", "--drop-uninformative", "-q"],
                 "bilateral": ["--method", "bilateral", self.picture, "-o", output, "--boxes", "3", "-q"],
                 "compare": ["compare", self.picture, self.picture],
                 "side by side": ["compare", self.picture, self.picture, self.picture, "--side-by-side", self.folder / "out.png"],
@@ -95,6 +95,22 @@ class Memory(unittest.TestCase):
                 print(f"{name}: predicted {need:.0f} MB, peak {peak:.0f} MB", file=sys.stderr)
                 if not SANITIZED:
                     self.assertLess(peak, need + PROGRAM_MB)
+
+    def test_passes_over_rows_that_are_read_as_they_are_needed(self):
+        """The same file within less than half of the memory of the whole frame."""
+        self.assertEqual(self.run_rpf("scene", "dof", "--size", "300x400", "--spp", "16", "-q", "-o", self.samples)[0], 0)
+        pictures = [self.folder / "whole.exr", self.folder / "streamed.exr"]
+        filtering = [self.samples, "--profile", "thesis", "--boxes", "5,3", "--backend", "cpu"]
+        _, text, whole_peak = self.run_rpf(*filtering, "-o", pictures[0], "-v")
+        limit = int(re.search(r"peak memory: (\d+) MB", text)[1]) * 2 // 5
+        code, text, peak = self.run_rpf(*filtering, "-o", pictures[1], "-v", "--max-memory", limit)
+        self.assertEqual(code, 0, text)
+        needed = re.search(r"rows are read as they are needed, \d+ at once, \d+ in memory: (\d+) MB", text)
+        self.assertLessEqual(int(needed[1]), limit)
+        self.assertEqual(pictures[0].read_bytes(), pictures[1].read_bytes())
+        print(f"whole: {whole_peak:.0f} MB, streamed: limit {limit} MB, predicted {needed[1]} MB, peak {peak:.0f} MB", file=sys.stderr)
+        if not SANITIZED:
+            self.assertLess(peak, limit + 30)  # the program itself
 
     def test_a_small_file_that_is_a_large_picture(self):
         self.picture.write_bytes(black_png(8000, 8000))

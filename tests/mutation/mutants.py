@@ -12,7 +12,7 @@ WEIGHTING, BACKEND = "src/cpu/weighting.cpp", "src/cpu/cpu_backend.cpp"
 PLAN, TABLES, CLEAN, CLEAN_FRAME = "src/plan/plan.cpp", "src/plan/tables.cpp", "src/frame/clean.cpp", "src/frame/clean_frame.cpp"
 SIZE, REGIONS, RANGES = "src/plan/neighborhood_size.cpp", "src/plan/regions.cpp", "include/rpf/ranges.h"
 FRAME_SCAN, OBSERVE_SCAN, ROWS = "src/frame/frame_scan.cpp", "src/learned/observe_scan.cpp", "src/run/rows.cpp"
-PREPARE, DRIVER, RESOLVE = "src/frame/prepare.cpp", "src/run/driver.cpp", "src/frame/resolve.cpp"
+PREPARE, RESOLVE = "src/frame/prepare.cpp", "src/frame/resolve.cpp"
 MERGE, RAW_READER, HDR_FLIP = "src/frame/merge.cpp", "src/io/raw_reader.cpp", "src/metrics/hdr_flip.cpp"
 SELECTION = "src/frame/selection.cpp"
 INFORMATION, INFORMATIVE = "src/run/information.cpp", "src/run/informative.cpp"
@@ -271,13 +271,13 @@ MUTANTS = [
            "Scene.StopsOnRequest", "cancel: goes on"),
 
     # ---------------------------------------------------------------- result, tiles and crop
-    Mutant("scale_not_undone", DRIVER, "value / prepared.facts.radiance_scale", "value",
+    Mutant("scale_not_undone", "src/run/picture.cpp", "value / prepared.facts.radiance_scale", "value",
            "oracle spp4_thesis image", "radiance scale: left in the image"),
     Mutant("weights_ignored", RESOLVE, "const bool weighted = !frame.weights.empty()", "const bool weighted = false",
            "Filter.WeightsSamplesInThePixelMean", "pixel mean: weights ignored"),
     Mutant("zero_weights", RESOLVE, "const auto is_weighted = [&](float w) { return w > 0; };", "const auto is_weighted = [&](float) { return true; };",
            "oracle sample_weight image", "pixel mean: 0 / 0 where no sample has a weight"),
-    Mutant("empty_pixel", RESOLVE, "if (frame.samples(pixel) > 0) mean_of_samples", "if (colors.size() > 0) mean_of_samples",
+    Mutant("empty_pixel", RESOLVE, "if (frame.samples(pixel) > 0)\n      mean_of_samples", "if (colors.size() > 0)\n      mean_of_samples",
            "oracle spp_varying_thesis image", "pixel mean: 0 / 0 without samples"),
     Mutant("tile_origin", BACKEND, "tile.x + place % tile.width", "place % tile.width",
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "tiles: tile-relative pixel"),
@@ -287,6 +287,12 @@ MUTANTS = [
            "Methods/Rows.FactsAreThoseOfTheWhole/*", "rows: an input is constant that is so in every row"),
     Mutant("rows_reach", ROWS, "reach += box_reach(width);", "reach = box_reach(width);", "Methods/Rows.OfACropAreThoseOfTheWhole/*",
            "rows: what the first pass reads is not there"),
+    Mutant("pass_ahead", "src/run/pass_steps.cpp", "std::min(ready - reach_of(plan.passes[pass]), region.end)", "std::min(ready, region.end)",
+           "PassSteps.FilterEveryRowOnceBehindWhatItReads", "streamed passes: rows are filtered before what they read is"),
+    Mutant("pass_keeps_too_few", "src/run/pass_steps.cpp", "done[pass] - reach_of(plan.passes[pass])", "done[pass]",
+           "PassSteps.FilterEveryRowOnceBehindWhatItReads", "streamed passes: rows are forgotten that are still read"),
+    Mutant("window_weights", "src/run/row_window.cpp", "forget_values(frame.weights, samples);", "",
+           "Methods/StreamedPasses.MakeThePictureOfTheWhole/*", "streamed passes: weights stay behind when rows go"),
     Mutant("last_tile_lost", "src/run/tiles.cpp", "y < region.height; y += height)", "y + height <= region.height; y += height)",
            BOTH + "GivesTheSameBitsForThreadsTilesAndRuns/*", "tiles: the last band is skipped"),
     Mutant("crop_margin", REGIONS, "box_reach(pass->box_width)", "box_reach(pass->box_width) - 1",

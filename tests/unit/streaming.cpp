@@ -79,7 +79,7 @@ Result streamed(const SampleBuffer& samples, Settings settings) {
 
 std::string refusal_of(const Settings& settings) {
   if (filters_pixels(settings.method)) return "filters the whole frame at once";
-  if (settings.method != Method::learned) return "take fewer rows at once";
+  if (settings.method == Method::rpf && settings.drop_uninformative) return "take fewer rows at once";
   return "";
 }
 

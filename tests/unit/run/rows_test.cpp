@@ -228,6 +228,43 @@ TEST_P(Streams, OfACropThatFactsAreGivenFor) {
 
 INSTANTIATE_TEST_SUITE_P(Backends, Streams, testing::Values("cpu", "opencl"));
 
+class StreamedPasses : public testing::TestWithParam<const char*> {};
+
+TEST_P(StreamedPasses, MakeThePictureOfTheWhole) {
+  Settings settings = settings_of(GetParam());
+  for (const char* backend : {"cpu", "opencl"}) {
+    settings.backend = backend;
+    if (settings.backend == "opencl" && devices().empty()) GTEST_SKIP() << "no OpenCL device";
+    for (const Frame& frame : frames)
+      for (const bool cropped : {false, true}) {
+        SCOPED_TRACE(frame.name);
+        if (cropped)
+          settings.crop = Window{-3, 12, 9, 4};
+        else
+          settings.crop.reset();
+        const SampleBuffer samples = frame_of(frame);
+        EXPECT_EQ(test::difference_when_streamed(samples, settings, filter(samples, settings)), "");
+      }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, StreamedPasses, testing::Values("rpf", "gaussian", "cross-bilateral"));
+
+TEST(RowsOfAFile, AreReadOnceForTheFactsAndOnceForAllPasses) {
+  BufferRows rows(frame_of(frames[0], 100));
+  Settings settings = settings_of("rpf");
+  settings.max_memory = 1;
+  run_streamed(rows, scan_rows(rows, settings, {}, {a_row}), settings, {}, a_row);
+  EXPECT_EQ(rows.rows_read, 2 * 100);
+}
+
+TEST(RowsOfAFile, AreNeededAtOnceToTellWhichChannelsTellNothing) {
+  Settings settings = settings_of("rpf");
+  settings.drop_uninformative = true;
+  EXPECT_FALSE(can_stream(settings));
+  EXPECT_EQ(test::difference_when_streamed(frame_of(frames[0]), settings, {}), "");
+}
+
 TEST(RowsOfAFile, AreReadWhereTheCropNeedsThem) {
   Settings settings = settings_of("rpf");
   settings.crop = Window{-3, 12, 9, 4};
