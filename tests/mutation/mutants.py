@@ -309,7 +309,7 @@ MUTANTS = [
            "Merge.OrdersTheSlotsAsTheFirstDoes", "merge: columns taken by place, not by name"),
     Mutant("merge_twice", MERGE, "if (!repeats(a.samples, b.samples)) return;", "return;",
            "Merge.RefusesTheSameSamplesTwice", "merge: copies count as samples"),
-    Mutant("raw_byte_order", RAW_READER, "b[1] << 8U", "b[1] << 16U",
+    Mutant("raw_byte_order", "src/io/spread.cpp", "b[1] << 8U | b[2] << 16U", "b[1] << 16U | b[2] << 8U",
            "Raw.IsRecognizedByItsContentAndDescribed", "raw: bytes in another order"),
     Mutant("raw_unused_plane", RAW_READER, "plane += checked_.info.sample_count * word;",
            "plane += channel.slot.empty() ? 0 : checked_.info.sample_count * word;",
