@@ -68,14 +68,17 @@ struct Report {
 
 /// What filter() makes.
 struct Result {
-  Image image;     ///< R, G, B (A), over the crop or the whole data window
-  Image features;  ///< the filtered features where Settings::filter_features asks for them: channels N.X, albedo.R, ...
+  Image image;  ///< R, G, B (A), over the crop or the whole data window
+  /// The filtered features where Settings::filter_features asks for them: channels N.X, albedo.R, ...; behind them
+  /// "error" where Settings::estimate_error asks for it.
+  Image features;
   Report report;
 };
 
 /// Filters a frame. Takes the buffer over and works in it; pass a copy to keep it.
-/// Throws Error(usage) for a setting that cannot be, Error(input) for an invalid buffer, Error(memory),
-/// Error(cancelled). The result does not depend on the number of threads or the tile size.
+/// Throws Error(usage) for a setting that cannot be, Error(input) for an invalid buffer, or one with too few samples
+/// for what is asked, Error(memory), Error(cancelled). The result does not depend on the number of threads or the tile
+/// size.
 Result filter(SampleBuffer samples, const Settings& settings, const Control& control = {});
 
 /// The slots of a layout that filter() uses with these settings; without the others the result has the same bits. Notes

@@ -49,7 +49,8 @@ rpf_status rpf_settings_new(const char* preset, rpf_settings** settings);
 /** Changes one setting. Names and values are those of the command's options without their dashes (rpf --help):
  * "backend" "opencl", "device" "1", "threads" "8", "max-memory" "4000" (MB), "model" "file.rpfnet", "noise" "0.002",
  * "boxes" "21,11,5" (or "none"), "features" "N,albedo", "random" "lens,time", "crop" "256x128+100+60"; switches take
- * "1" or "0": "clamp-negative", "filter-features" (the filtered features too, as rpf_filter() hands them over).
+ * "1" or "0": "clamp-negative", "filter-features" (the filtered features too, as rpf_filter() hands them over),
+ * "estimate-error" (their channel "error").
  * @return RPF_OK, or RPF_USAGE for a name or a value that cannot be; nothing has changed then */
 rpf_status rpf_settings_set(rpf_settings* settings, const char* name, const char* value);
 

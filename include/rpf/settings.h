@@ -97,6 +97,9 @@ struct Settings {
 
   /// Also filter the features with the weights of the color: Result::features.
   bool filter_features = false;
+  /// Also estimate the relative error of each pixel, sqrt(relMSE): the channel "error" of Result::features.
+  /// From two halves of the samples, each filtered too, which takes twice the time (docs/explain.md).
+  bool estimate_error = false;
   /// Filter only this part of the data window (coordinates of the data window's own system). The pixels are those of
   /// the whole frame.
   std::optional<Window> crop;

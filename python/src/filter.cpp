@@ -67,7 +67,7 @@ Picture run_filter(Samples& samples, const Settings& settings, bool keep, const 
   Result result =
       watched(progress, [&](const Control& control) { return filter(samples.release(keep), settings, control); });
   Picture picture{std::make_shared<Image>(std::move(result.image)), std::move(result.report)};
-  if (settings.filter_features) picture.features = std::make_shared<Image>(std::move(result.features));
+  if (settings.filter_features || settings.estimate_error) picture.features = std::make_shared<Image>(std::move(result.features));
   return picture;
 }
 

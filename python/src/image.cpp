@@ -122,7 +122,7 @@ void bind_image(nb::module_& module) {
           [](const Picture& p) -> std::optional<Picture> {
             return p.features ? std::optional(Picture{p.features}) : std::nullopt;
           },
-          "The filtered features, where Settings.filter_features asks for them, else None.")
+          "The filtered features, where Settings.filter_features or estimate_error asks for them, else None.")
       .def(
           "_repr_png_",
           [](const nb::object& self) { return nb::module_::import_("rpf.picture").attr("png")(self.attr("pixels")); },

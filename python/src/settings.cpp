@@ -52,6 +52,8 @@ void bind_common(nb::class_<Settings>& c) {
       .def_rw("clamp_negative", &Settings::clamp_negative)
       .def_rw("clamp_infinite", &Settings::clamp_infinite)
       .def_rw("filter_features", &Settings::filter_features, "Also filter the features: Image.features.")
+      .def_rw("estimate_error", &Settings::estimate_error,
+              "Also estimate the relative error of each pixel: channel error of Image.features. Twice the time.")
       .def_rw("threads", &Settings::threads, "0: all cores that this process may use.")
       .def_rw("max_memory", &Settings::max_memory, "Bytes; 0: no limit.")
       .def_prop_rw(

@@ -135,6 +135,7 @@ const std::map<std::string, Setter>& setters() {
       {"bandwidth", number(&S::bandwidth, ranges::bandwidth)},
       {"sigma-feature", number(&S::sigma_feature, ranges::sigma_feature)},
       {"filter-features", flag(&S::filter_features)},
+      {"estimate-error", flag(&S::estimate_error)},
       {"crop", set_crop},
       {"threads", number(&S::threads, threads)},
       {"max-memory", set_max_memory},

@@ -103,6 +103,7 @@ std::vector<PlannedOutput> planned_outputs(const FilterOptions& options, const F
   std::vector<std::string> features;
   for (const std::string& slot : needed_layout(info, settings).slots)
     if (is_feature_slot(slot)) features.push_back(name_in_group(slot));
+  if (settings.estimate_error) features.emplace_back("error");
   for (const PlannedOutput& file : planned_features(options.aov, features, window)) outputs.push_back(file);
   return outputs;
 }
@@ -116,7 +117,8 @@ void check_usage(const FilterOptions& options) {
 
 void check_features(const FilterOptions& options, const SampleFileInfo& info) {
   const auto is_feature = [](const SampleFileChannel& channel) { return is_feature_slot(channel.slot); };
-  if (!options.aov.empty() && std::none_of(info.channels.begin(), info.channels.end(), is_feature))
+  if (!options.aov.empty() && !options.settings.estimate_error &&
+      std::none_of(info.channels.begin(), info.channels.end(), is_feature))
     throw Error(ErrorKind::usage, fmt::format("--aov: \"{}\" has no features; leave it out", info.path));
 }
 
@@ -131,6 +133,8 @@ void open_parts(OpenFrame& frame) {
   if (filters_pixels(frame.settings.method))
     throw Error(ErrorKind::usage, fmt::format("{}: method {} filters the whole frame at once; leave it out", option,
                                               name_of(frame.settings.method)));
+  if (frame.settings.estimate_error)
+    throw Error(ErrorKind::usage, fmt::format("{}: --error needs the whole frame; leave one of them out", option));
   if (!options.report.empty() || !options.time_budget.empty())
     throw Error(ErrorKind::usage, fmt::format("{}: {} needs the whole frame; leave one of them out", option,
                                               options.report.empty() ? "--time-budget" : "--report"));

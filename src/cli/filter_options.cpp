@@ -54,6 +54,9 @@ void add_file_options(CLI::App& app, FilterOptions& o) {
          "--aov", o.aov,
          "Also write the features, filtered with the same weights: layers of FILE.exr, or one file each in a folder")
       ->type_name("FILE|DIR");
+  app.add_flag("--error", o.settings.estimate_error,
+               "Also estimate the relative error of each pixel: layer error of --aov; twice the time")
+      ->needs("--aov");
   app.add_option("--report", o.report, "Also write a page about the frame, before and after, as rpf report does")
       ->type_name("FILE.html");
   add_map_option(app, o.map);

@@ -71,6 +71,7 @@ Settings run_as(const Settings& settings, const Preset& preset) {
   result.threads = settings.threads;
   result.max_memory = settings.max_memory;
   result.filter_features = settings.filter_features;
+  result.estimate_error = settings.estimate_error;
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "learned/observe.h"
 #include "rpf/methods.h"
 #include "run/backends.h"
+#include "run/error_estimate.h"
 #include "run/estimate_bands.h"
 #include "run/informative.h"
 #include "run/memory.h"
@@ -292,6 +293,7 @@ Result run_streamed(SampleRows& rows, ScannedRows scanned, const Settings& setti
 }
 
 Result filter(SampleBuffer samples, const Settings& settings, const Control& control) {
+  if (settings.estimate_error) return filter_with_error(std::move(samples), settings, control);
   return run_filter(std::move(samples), settings, control, {});
 }
 

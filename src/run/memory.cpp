@@ -101,7 +101,10 @@ std::size_t carried_count(const SampleLayout& layout, const Settings& settings) 
 }
 
 std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {
-  return memory_need(size, layout, layout.size() + spare_columns, settings);
+  const std::uint64_t halves = settings.estimate_error
+                                   ? size.samples * (layout.size() + spare_columns) * word  // one, and its plain mean's
+                                   : 0;
+  return memory_need(size, layout, layout.size() + spare_columns, settings) + halves;
 }
 
 void check_memory(const SampleBuffer& samples, const Settings& settings, std::uint64_t more) {

@@ -73,6 +73,8 @@ std::string find_facts(SampleRows& rows, const Settings& settings, const Control
 
 Result filter_rows(SampleRows& rows, const Settings& settings, const std::string& facts, const Control& control) {
   validate(settings);
+  if (settings.estimate_error)
+    throw Error(ErrorKind::usage, "--error: filters halves of the whole frame's samples; leave --rows and --facts out");
   const SampleBuffer& frame = rows.frame();
   const Window crop = settings.crop.value_or(frame.data_window);
   check_crop(crop, frame.data_window);
@@ -102,7 +104,8 @@ Result filter_rows(SampleRows& rows, const Settings& settings, const std::string
 }
 
 bool can_stream(const Settings& settings) {
-  return !filters_pixels(settings.method) && !(settings.method == Method::rpf && settings.drop_uninformative);
+  return !filters_pixels(settings.method) && !settings.estimate_error &&
+         !(settings.method == Method::rpf && settings.drop_uninformative);
 }
 
 RowsMemory predict_rows_memory(const SampleRows& rows, std::uint32_t max_samples_per_pixel, const Settings& settings) {

@@ -48,6 +48,22 @@ class CommandTest(CommandCase):
         energy = error_of(run("compare", after, before))[2]
         self.assertAlmostEqual(energy, 1, delta=0.05)
 
+    def test_the_error_of_each_pixel_is_a_layer(self):
+        aov, folder = self.folder / "aov.exr", self.folder / "aov"
+        self.expect(run(EXAMPLE, "-o", self.output, "--aov", aov, "--error", *QUICK), 0)
+        self.assertIn(b"\0error\0", aov.read_bytes())  # in the list of channels
+        plain = self.folder / "plain.exr"
+        self.expect(run(EXAMPLE, "-o", plain, "--aov", f"{folder}/", "--error", *QUICK), 0)
+        self.assertIn("error.exr", [file.name for file in folder.iterdir()])
+        self.assertEqual(error_of(run("compare", plain, self.output))[0], 0)
+
+    def test_an_error_that_cannot_be_told_is_refused(self):
+        aov = ["--aov", self.folder / "aov.exr", "--error"]
+        self.expect(run(EXAMPLE, "-o", self.output, "--error"), 2, "--aov")
+        self.expect(run(EXAMPLE, "-o", self.output, *aov, "--rows", "1/2"), 2, "--rows", "--error needs the whole frame")
+        self.expect(run(REFERENCE, "-o", self.output, "--method", "gaussian", *aov), 3, "no pixel has 2 samples", "--error")
+        self.expect_nothing_written()
+
     def test_compare_in_json_is_the_table(self):
         self.expect(run(EXAMPLE, "-o", self.output, "--boxes", "none", "-q"), 0)
         image = json.loads(run("compare", "--json", self.output, REFERENCE).stdout)["images"][0]

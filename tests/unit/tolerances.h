@@ -27,6 +27,11 @@ constexpr double remade_pixel = 1e-5;
 /// freedom deviate by 0.9 / sqrt(540) = 4 % together, their brightness by less. Three such deviations.
 constexpr double estimated_error = 0.12;
 
+/// Estimated over true squared error of a Gaussian of 5 pixels on 1,200 pixels of even noise, three colors: errors of
+/// neighbors are alike, so that some 1,200 * 3 / 12 of them are independent, and halves have the same number. Three deviations
+/// of sqrt(2 / 300 + 2 / 300).
+constexpr double noise_of_halves = 0.35;
+
 /// Entries of the offset table per offset against the exact Gaussian: each side is rounded to whole entries.
 constexpr double offset_entries = 0.5;
 /// ... and the center takes up what rounding left over on both sides, half an entry for each of up to 254 offsets.
