@@ -61,7 +61,7 @@ void RowWindow::forget_before(int row) {
   for (std::uint32_t& first : frame.first_sample) first = std::max(first, samples) - samples;
 }
 
-void RowWindow::append(PreparedFrame part, int first_row) {
+void RowWindow::append(const PreparedFrame& part, int first_row) {
   Frame& frame = prepared_.frame;
   const std::uint32_t before = frame.first_sample.back();
   append_values(frame.records, part.frame.records);

@@ -28,7 +28,7 @@ class RowWindow {
  private:
   std::uint32_t& first_sample_of_row(int row);
   void forget_before(int row);
-  void append(PreparedFrame part, int first_row);
+  void append(const PreparedFrame& part, int first_row);
 
   SampleRows& rows_;
   const FrameFindings& found_;
