@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
+#include "frame/sums_around.h"
 #include "rpf/error.h"
 
 namespace rpf {
@@ -22,19 +25,6 @@ constexpr double least_part = 0.01;
 
 /// Of relMSE (rpf compare), in the unit of the radiance squared.
 constexpr double least_brightness = 0.01;
-
-/// Sums over the pixels within `reach`, as far as the picture goes.
-Values sums_around(const Values& values, int width, int height, int reach) {
-  Values rows(values.size()), sums(values.size());
-  const auto at = [&](int x, int y) { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + x; };
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int i = std::max(x - reach, 0); i <= std::min(x + reach, width - 1); ++i) rows[at(x, y)] += values[at(i, y)];
-  for (int y = 0; y < height; ++y)
-    for (int i = std::max(y - reach, 0); i <= std::min(y + reach, height - 1); ++i)
-      for (int x = 0; x < width; ++x) sums[at(x, y)] += rows[at(x, i)];
-  return sums;
-}
 
 /// What is known of one color: sums over the pixels.
 struct Noise {
@@ -65,19 +55,24 @@ Noise noise_of(const SampleBuffer& frame, std::size_t column) {
   return noise;
 }
 
-/// [pixel] what relMSE has of one sample there: variance over brightness, each of the pixels within `reach`, mean of
-/// the colors.
-Values relative_variances(const SampleBuffer& frame, int reach) {
-  const int width = frame.data_window.width, height = frame.data_window.height;
-  Values relative(frame.data_window.pixel_count());
+/// What relMSE has of one sample at each pixel, for each of `reaches`: variance over brightness, each of the pixels
+/// within it, mean of the colors.
+template <std::size_t N>
+std::array<Values, N> relative_variances(const SampleBuffer& frame, const std::array<int, N>& reaches) {
+  std::array<Values, N> relative;
+  relative.fill(Values(frame.data_window.pixel_count()));
   for (const char* name : {"R", "G", "B"}) {
     const Noise noise = noise_of(frame, *frame.layout.find(name));
-    const auto sums = [&](const Values& values) { return sums_around(values, width, height, reach); };
-    const Values squares = sums(noise.squares), free = sums(noise.free);
-    const Values means = sums(noise.mean), pixels = sums(noise.pixels);
-    for (std::size_t p = 0; p < relative.size(); ++p) {
-      const double brightness = means[p] / std::max(pixels[p], 1.0);
-      relative[p] += squares[p] / std::max(free[p], 1.0) / (brightness * brightness + least_brightness) / 3;
+    for (std::size_t i = 0; i < N; ++i) {
+      const auto sums = [&](const Values& values) {
+        return sums_around(values, frame.data_window.width, frame.data_window.height, reaches[i]);
+      };
+      const Values squares = sums(noise.squares), free = sums(noise.free);
+      const Values means = sums(noise.mean), pixels = sums(noise.pixels);
+      for (std::size_t p = 0; p < relative[i].size(); ++p) {
+        const double brightness = means[p] / std::max(pixels[p], 1.0);
+        relative[i][p] += squares[p] / std::max(free[p], 1.0) / (brightness * brightness + least_brightness) / 3;
+      }
     }
   }
   return relative;
@@ -86,11 +81,10 @@ Values relative_variances(const SampleBuffer& frame, int reach) {
 /// Sum of v / n is least for a given sum of n where n is in proportion to the root of v. v is the geometric mean of
 /// what is near and what is around.
 Values wanted_samples(const SampleBuffer& frame) {
-  Values wanted = relative_variances(frame, near_pixel);
-  const Values wide = relative_variances(frame, around);
+  auto [wanted, wide] = relative_variances<2>(frame, {near_pixel, around});
   for (std::size_t p = 0; p < wanted.size(); ++p)
     wanted[p] = std::sqrt(std::sqrt(std::max(wanted[p], least_part * wide[p]) * wide[p]));
-  return wanted;
+  return std::move(wanted);
 }
 
 void check_noise_is_told(const SampleBuffer& frame) {
@@ -166,7 +160,7 @@ Image sample_density(const SampleBuffer& frame, int samples) {
 
 double mean_error(const SampleBuffer& frame) {
   check_noise_is_told(frame);
-  const Values relative = relative_variances(frame, around);
+  const auto [relative] = relative_variances<1>(frame, {around});
   double sum = 0, pixels = 0;
   for (std::size_t p = 0; p < relative.size(); ++p) {
     const std::uint32_t count = frame.first_sample[p + 1] - frame.first_sample[p];

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frame/sums_around.h"
 #include "rpf/error.h"
 #include "rpf/io.h"
 #include "rpf/methods.h"
@@ -98,22 +99,6 @@ void check_halves(const SampleBuffer& samples, Method method) {
                             least));
 }
 
-/// Sums over the pixels within `around`, as far as the picture goes.
-std::vector<double> sums_around(const std::vector<double>& values, const Window& window) {
-  std::vector<double> rows(values.size()), sums(values.size());
-  const auto at = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(window.width) + static_cast<std::size_t>(x);
-  };
-  for (int y = 0; y < window.height; ++y)
-    for (int x = 0; x < window.width; ++x)
-      for (int i = std::max(x - around, 0); i <= std::min(x + around, window.width - 1); ++i)
-        rows[at(x, y)] += values[at(i, y)];
-  for (int y = 0; y < window.height; ++y)
-    for (int i = std::max(y - around, 0); i <= std::min(y + around, window.height - 1); ++i)
-      for (int x = 0; x < window.width; ++x) sums[at(x, y)] += rows[at(x, i)];
-  return sums;
-}
-
 /// Variance of the filtered frame and the square of its bias, relative to the image: (10.1) and (10.2).
 struct Parts {
   double variance = 0, bias = 0;
@@ -157,10 +142,13 @@ std::vector<float> errors_of(const Half& a, const Half& b, const Image& image, c
   }
   std::vector<double> squares(bias);
   for (double& value : squares) value *= value;
-  variance = sums_around(variance, image.data_window);
-  bias = sums_around(bias, image.data_window);
-  squares = sums_around(squares, image.data_window);
-  const std::vector<double> pixels = sums_around(both, image.data_window);
+  const auto sums = [&, &window = image.data_window](const std::vector<double>& values) {
+    return sums_around(values, window.width, window.height, around);
+  };
+  variance = sums(variance);
+  bias = sums(bias);
+  squares = sums(squares);
+  const std::vector<double> pixels = sums(both);
   for (std::size_t p = 0; p < count; ++p) variance[p] += beyond_chance(bias[p], squares[p], pixels[p]);
   return roots(variance, pixels);
 }
