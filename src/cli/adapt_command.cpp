@@ -94,7 +94,7 @@ class Growing {
                " or lower --spp");
     check_outputs({{o_.file, OutputKind::samples, {}, {}, true}}, {o_.file});
     check_in_place(info, o_.file);
-    half_slots_ = half_slots_of({info});
+    files_ = {info};
     frame_ = read_samples(o_.file, read_);
   }
 
@@ -120,16 +120,12 @@ class Growing {
     const Passing density{stem + "density.exr"}, rendered{stem + "round.exr"};
     write_image(density.path, sample_density(frame_, samples));
     render(density.path, rendered.path);
-    const std::vector<std::string> half = half_slots_of({checked(rendered.path)});
-    const auto is_full = [&](const std::string& slot) {
-      return std::find(half.begin(), half.end(), slot) == half.end();
-    };
-    half_slots_.erase(std::remove_if(half_slots_.begin(), half_slots_.end(), is_full), half_slots_.end());
+    files_.push_back(checked(rendered.path));
     std::vector<SamplePart> parts;
     parts.push_back({o_.file, std::move(frame_)});
     parts.push_back({"the command's file", read_samples(rendered.path, read_)});
     frame_ = merge_samples(std::move(parts));
-    write_samples(o_.file, frame_, half_slots_);
+    write_samples(o_.file, frame_, half_slots_of(files_));
   }
 
  private:
@@ -168,7 +164,7 @@ class Growing {
   const Options& o_;
   SampleReadOptions read_;
   SampleBuffer frame_;
-  std::vector<std::string> half_slots_;
+  std::vector<SampleFileInfo> files_;  ///< the one to begin with, and each round's
   int round_ = 0;
 };
 
