@@ -150,12 +150,8 @@ TEST_P(Rows, OfACropAreThoseOfTheWhole) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, Rows, testing::Values("rpf", "gaussian", "cross-bilateral", "learned"));
 
-class Streams : public testing::TestWithParam<const char*> {};
-
-TEST_P(Streams, MakeThePictureOfTheWhole) {
-  Settings settings = settings_of("learned");
-  settings.backend = GetParam();
-  if (settings.backend == "opencl" && devices().empty()) GTEST_SKIP() << "no OpenCL device";
+/// Of every frame, whole and cropped.
+void expect_the_picture_of_the_whole(Settings settings) {
   for (const Frame& frame : frames) {
     SCOPED_TRACE(frame.name);
     for (const bool cropped : {false, true}) {
@@ -167,6 +163,15 @@ TEST_P(Streams, MakeThePictureOfTheWhole) {
       EXPECT_EQ(test::difference_when_streamed(samples, settings, filter(samples, settings)), "");
     }
   }
+}
+
+class Streams : public testing::TestWithParam<const char*> {};
+
+TEST_P(Streams, MakeThePictureOfTheWhole) {
+  Settings settings = settings_of("learned");
+  settings.backend = GetParam();
+  if (settings.backend == "opencl" && devices().empty()) GTEST_SKIP() << "no OpenCL device";
+  expect_the_picture_of_the_whole(settings);
 }
 
 TEST_P(Streams, ReadNoRowAnewThatIsSoonAskedForAgain) {
@@ -235,16 +240,7 @@ TEST_P(StreamedPasses, MakeThePictureOfTheWhole) {
   for (const char* backend : {"cpu", "opencl"}) {
     settings.backend = backend;
     if (settings.backend == "opencl" && devices().empty()) GTEST_SKIP() << "no OpenCL device";
-    for (const Frame& frame : frames)
-      for (const bool cropped : {false, true}) {
-        SCOPED_TRACE(frame.name);
-        if (cropped)
-          settings.crop = Window{-3, 12, 9, 4};
-        else
-          settings.crop.reset();
-        const SampleBuffer samples = frame_of(frame);
-        EXPECT_EQ(test::difference_when_streamed(samples, settings, filter(samples, settings)), "");
-      }
+    expect_the_picture_of_the_whole(settings);
   }
 }
 
