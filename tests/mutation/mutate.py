@@ -15,6 +15,7 @@ import time
 from pathlib import Path
 
 sys.dont_write_bytecode = True      # the source folder stays clean
+from error_estimate_mutants import MUTANTS as ERROR_ESTIMATE_MUTANTS
 from explain_mutants import MUTANTS as EXPLAIN_MUTANTS
 from fixed_weights_mutants import MUTANTS as FIXED_WEIGHTS_MUTANTS
 from learned_mutants import MUTANTS as LEARNED_MUTANTS
@@ -22,7 +23,7 @@ from mutants import MUTANTS as REFERENCE_MUTANTS
 from opencl_mutants import MUTANTS as OPENCL_MUTANTS
 from pixel_mutants import MUTANTS as PIXEL_MUTANTS
 
-MUTANTS = REFERENCE_MUTANTS + OPENCL_MUTANTS + FIXED_WEIGHTS_MUTANTS + EXPLAIN_MUTANTS + LEARNED_MUTANTS + PIXEL_MUTANTS
+MUTANTS = REFERENCE_MUTANTS + OPENCL_MUTANTS + FIXED_WEIGHTS_MUTANTS + EXPLAIN_MUTANTS + LEARNED_MUTANTS + PIXEL_MUTANTS + ERROR_ESTIMATE_MUTANTS
 LEFT_OUT = {".git", "build", "demo", "__pycache__"}
 # -O1 compiles fast; -w because a mutant may leave a variable unused, and the project makes warnings errors.
 CONFIGURE = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG -w",
