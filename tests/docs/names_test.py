@@ -99,6 +99,20 @@ def rule_broken(block, place):
     return "" if explained or not block.note else f"<!-- {block.note} --> is not known"
 
 
+def cases(*choice):
+    return len(subprocess.run([RPF, "selftest", "--list", *choice], capture_output=True, text=True, check=True).stdout.split())
+
+
+def wrong_counts(page, all_cases, quick):
+    """What a page says of the number of cases of rpf selftest, where there are not as many: in words, and in tables of groups."""
+    text = without_blocks(page)
+    said = re.findall(r"(?<!choice of )(?<![\d,])(\d{3,}) cases", text)
+    wrong = [f"{count} cases, there are {all_cases}" for count in said if int(count) != all_cases]
+    wrong += [f"a choice of {count} cases, there are {quick}" for count in re.findall(r"choice of (\d+) cases", text) if int(count) != quick]
+    counts = [int(count) for table in re.findall(r"^\| group \| cases .*\n\|[-| ]+\n((?:\|.*\n)+)", page, re.M) for count in re.findall(r"^\| .*? \| (\d+) \|", table, re.M)]
+    return wrong + ([f"tables of {sum(counts)} cases, there are {all_cases}"] if counts and sum(counts) != all_cases else [])
+
+
 def wrong_in(place, page):
     found = [f"{place}: {broken}: {block.text[:60]!r}" for block in blocks(page) if (broken := rule_broken(block, place))]
     found += [f"{place}: an indented block, fence it: {line}" for line in INDENTED.findall(without_blocks(page))]
@@ -126,6 +140,13 @@ class NamesTest(unittest.TestCase):
                                 ("`ctest -L orcale`", "orcale"), ("`./run test -R Nowhere`", "Nowhere"), ("`tests/docs/missing.py`", "tests/docs/missing.py"),
                                 ("(test `nowhere`)", "no test nowhere"), ("`python3 bench/missing.py`", "bench/missing.py")):
             self.assertIn(complaint, " ".join(wrong_in("page", page)), page)
+
+    def test_cases_are_as_many_as_pages_say(self):
+        counts = cases("--full"), cases()
+        self.assertEqual({place: wrong for place, page in pages(PROJECT).items() if place != HISTORY and (wrong := wrong_counts(page, *counts))}, {})
+        for page, complaint in (("in 477 cases", "477 cases"), ("a choice of 57 cases", "a choice of 57"), ("| group | cases | what |\n|---|---|---|\n| a, b | 470 | x |\n| c | 7 | y |\n", "477 cases")):
+            self.assertIn(complaint, " ".join(wrong_counts(page, 478, 58)))
+        self.assertEqual(wrong_counts("4,096 cases, 20 cases, 478 cases, a choice of 58 cases", 478, 58), [])
 
     def test_a_page_that_no_test_reads_is_found(self):
         place, block = "docs/" + "nowhere.md", "<!-- run by example -->\n```sh\nx\n```\n"
