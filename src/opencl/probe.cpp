@@ -9,6 +9,7 @@
 #include "opencl/cache_file.h"
 #include "opencl/cache_lock.h"
 #include "opencl/kernel_cache.h"
+#include "opencl/kernel_source.h"
 #include "opencl/machine_state.h"
 #include "opencl/verdicts.h"
 #include "rpf/error.h"
@@ -94,7 +95,7 @@ void require_working_device(const std::string& wanted) {
   const std::lock_guard<std::mutex> lock(mutex);
   if (known.count(wanted) != 0) return;
   prepare_kernel_cache();
-  const std::string name = name_of("test " + wanted);
+  const std::string name = name_of(fmt::format("test {} {:016x}", wanted, checksum(kernel_source("self_test.cl"))));
   const CacheLock alone(name, to_wait, {});
   const Answer answer = ask_and_keep({"test", wanted}, "", name, to_answer, {});
   if (answer.kind != "ok") {
