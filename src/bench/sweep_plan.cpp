@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "rpf/density.h"
 #include "rpf/error.h"
 #include "rpf/io.h"
 
@@ -72,7 +73,9 @@ void name_scene_files(SweepFrame& frame, const std::string& folder) {
   const auto file = [&](int samples, const char* kind) {
     return (fs::path(folder) / fmt::format("{}-{}spp.{}.exr", stem, samples, kind)).string();
   };
+  const std::string how = std::string(frame.penumbra ? "-penumbra" : "") + (frame.adapted ? "-adapted" : "");
   frame.samples = file(frame.samples_per_pixel, "samples");
+  frame.samples.insert(frame.samples.size() - std::string(".samples.exr").size(), how);
   if (frame.reference_samples > 0) frame.reference = file(frame.reference_samples, "reference");
 }
 
@@ -85,6 +88,24 @@ SceneOptions scene_options(const SweepFrame& frame, int samples, SceneSampler sa
   return options;
 }
 
+SampleBuffer render_samples(const SweepFrame& frame, const Control& control) {
+  SceneOptions options =
+      scene_options(frame, frame.adapted ? adapted_from : frame.samples_per_pixel, SceneSampler::random);
+  options.penumbra = frame.penumbra;
+  SampleBuffer samples = render_scene(frame.scene, options, control);
+  options.samples = 1;
+  for (int count = adapted_from, more = 0; frame.adapted && count < frame.samples_per_pixel; count += more) {
+    more = std::min(count, frame.samples_per_pixel - count);
+    options.density = sample_density(samples, more);
+    ++options.seed;
+    std::vector<SamplePart> parts;
+    parts.push_back({"rounds before", std::move(samples)});
+    parts.push_back({"round", render_scene(frame.scene, options, control)});
+    samples = merge_samples(std::move(parts));
+  }
+  return samples;
+}
+
 void make_reference(const SweepFrame& frame, const Control& control) {
   if (frame.reference.empty() || fs::exists(frame.reference)) return;
   fs::create_directories(fs::path(frame.reference).parent_path());
@@ -95,10 +116,7 @@ void make_reference(const SweepFrame& frame, const Control& control) {
 void make_scene_files(const SweepFrame& frame, const Control& control) {
   if (frame.scene.empty()) return;
   fs::create_directories(fs::path(frame.samples).parent_path());
-  if (!fs::exists(frame.samples)) {
-    const SceneOptions options = scene_options(frame, frame.samples_per_pixel, SceneSampler::random);
-    write_samples(frame.samples, render_scene(frame.scene, options, control));
-  }
+  if (!fs::exists(frame.samples)) write_samples(frame.samples, render_samples(frame, control));
   make_reference(frame, control);
 }
 

@@ -10,6 +10,9 @@
 
 namespace rpf::bench {
 
+/// Samples a pixel of the first round of SweepFrame::adapted.
+constexpr int adapted_from = 4;
+
 /// A frame to filter: files, or a scene of rpf scene that is rendered where its files are not there yet.
 struct SweepFrame {
   std::string name;
@@ -17,6 +20,8 @@ struct SweepFrame {
   std::string scene;               ///< empty: the files have to be there
   int width = 240, height = 135, samples_per_pixel = 4;
   int reference_samples = 0;          ///< a pixel; 0: no reference
+  bool penumbra = false;              ///< of a scene: rendered with SceneOptions::penumbra
+  bool adapted = false;               ///< of a scene: rounds as rpf adapt has them, from 4 samples a pixel on
   std::vector<std::string> settings;  ///< names of those to run on it; empty: all
 };
 
@@ -40,6 +45,9 @@ void name_scene_files(SweepFrame& frame, const std::string& folder);
 
 /// How a scene is rendered: its samples by SceneSampler::random, its reference by SceneSampler::sobol.
 SceneOptions scene_options(const SweepFrame& frame, int samples, SceneSampler sampler);
+
+/// Renders the samples of a scene. Throws as render_scene() does.
+SampleBuffer render_samples(const SweepFrame& frame, const Control& control);
 
 /// Renders the reference of a scene where its file is not there. Throws as render_reference() and write_image() do.
 void make_reference(const SweepFrame& frame, const Control& control);

@@ -25,8 +25,8 @@ struct Options {
   int threads = 0;  ///< 0: as filtering chooses
 };
 
-study::Extent extent_of(const Options& o) {
-  study::Extent extent;
+study::Extent extent_of(const Options& o, const study::Experiment& experiment) {
+  study::Extent extent = experiment.full;
   if (o.quick) extent = {192, 108, 256, true};
   if (!o.size.empty()) std::tie(extent.width, extent.height) = size_of(o.size);
   return extent;
@@ -51,7 +51,7 @@ bool show(const std::string& name, const study::StudyProgress& p) {
 }
 
 void run_one(const Options& o, const study::Experiment& experiment) {
-  const study::StudyOptions options{o.folder, extent_of(o),
+  const study::StudyOptions options{o.folder, extent_of(o, experiment),
                                     [&](const std::string& text) { return run_settings(o, text); }};
   const study::StudyDone done = study::run_experiment(
       experiment, options, [&](const study::StudyProgress& p) { return show(experiment.name, p); });
@@ -108,7 +108,9 @@ Command add_study_command(CLI::App& app) {
   command->add_option("NAME", options->name, "Which experiment; without it they are listed");
   command->add_option("-o,--output", options->folder, "Folder for pages, results and pictures")->type_name("DIR");
   command->add_flag("--quick", options->quick, "Smaller pictures and fewer points: under two minutes each");
-  command->add_option("--size", options->size, "Pixels of the scenes; 320x180, quick 192x108 if not given")
+  command
+      ->add_option("--size", options->size,
+                   "Pixels of the scenes; 320x180, contemporaries and quick 192x108 if not given")
       ->type_name("WxH");
   command->add_option("--backend", options->backend, "As for filtering; changes the time, never a bit")
       ->check(CLI::IsMember(backend_names()))

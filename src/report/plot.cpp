@@ -16,7 +16,7 @@
 namespace rpf::report {
 namespace {
 
-/// The lines of a plot take them in turns.
+/// The lines of a plot take them in turns; from the second turn on they are dashed.
 constexpr std::uint32_t colors[] = {blue, vermillion, bluish_green, reddish_purple, orange, sky_blue, black};
 
 std::string quoted(const std::string& text) {
@@ -54,11 +54,14 @@ std::string axes_of(const Plot& plot) {
 }
 
 std::string curves_of(const Plot& plot) {
-  const char* const drawn = plot.bars ? "boxes" : "linespoints linewidth 2 pointtype 7 pointsize 0.5";
   std::vector<std::string> parts;
-  for (std::size_t i = 0; i < plot.curves.size(); ++i)
+  for (std::size_t i = 0; i < plot.curves.size(); ++i) {
+    const std::string drawn = plot.bars ? "boxes"
+                                        : fmt::format("linespoints linewidth 2 dashtype {} pointtype 7 pointsize 0.5",
+                                                      1 + i / std::size(colors));
     parts.push_back(fmt::format("$curve{} using 1:2 with {} linecolor rgb '{}' title {}", i, drawn,
                                 html_color(colors[i % std::size(colors)]), quoted(plot.curves[i].name)));
+  }
   return fmt::format("plot {}\n", fmt::join(parts, ", "));
 }
 

@@ -16,6 +16,10 @@ Quantity error_named(const char* name) {
   return {name, [name](const Outcome& o) { return o.error(name); }};
 }
 
+Quantity cpu_seconds() {
+  return {"CPU seconds", [](const Outcome& o) { return o.cpu(); }};
+}
+
 Verdict less(const Findings& findings, const std::string& statement, const std::string& a, const std::string& b,
              const Quantity& quantity) {
   const std::vector<std::string> scenes = findings.scenes();

@@ -27,6 +27,7 @@ struct Quantity {
 
 /// An error that docs/commands.md lists under "compare".
 Quantity error_named(const char* name);
+Quantity cpu_seconds();
 
 /// Whether `a` has less of a quantity than `b` (labels of runs), scene by scene.
 Verdict less(const Findings& findings, const std::string& statement, const std::string& a, const std::string& b,

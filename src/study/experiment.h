@@ -20,7 +20,11 @@ struct Run {
   std::string label;        ///< tells it from the others on its frame
   bench::SweepFrame frame;  ///< a scene; its files have no folder yet
   std::string options;      ///< as on the command line of `rpf INPUT -o OUTPUT`
+  bool denoised = false;    ///< by Open Image Denoise after that, which then makes the plain mean
 };
+
+/// What was done to the samples, as tables and results have it: the options, and the denoiser.
+std::string treatment_of(const Run& run);
 
 class Findings;
 class Story;
@@ -30,6 +34,7 @@ struct Experiment {
   const char* question;  ///< one line
   std::vector<Run> (*plan)(const Extent& extent);
   void (*tell)(const Findings& findings, Story& story);
+  Extent full = {};  ///< where neither a size nor the quick form is asked for
 };
 
 /// All there are, in the order of docs/study.md.
@@ -59,5 +64,7 @@ std::vector<Run> plan_spp(const Extent& extent);
 void tell_spp(const Findings& findings, Story& story);
 std::vector<Run> plan_thesis_vs_paper(const Extent& extent);
 void tell_thesis_vs_paper(const Findings& findings, Story& story);
+std::vector<Run> plan_contemporaries(const Extent& extent);
+void tell_contemporaries(const Findings& findings, Story& story);
 
 }  // namespace rpf::study

@@ -29,6 +29,10 @@ std::vector<const Outcome*> Findings::on(const std::string& scene) const {
   return some;
 }
 
+bool Findings::has(const std::string& label) const {
+  return std::any_of(outcomes_.begin(), outcomes_.end(), [&](const Outcome& o) { return o.run.label == label; });
+}
+
 const Outcome& Findings::at(const std::string& scene, const std::string& label, int samples_per_pixel) const {
   for (const Outcome& outcome : outcomes_)
     if (outcome.run.frame.scene == scene && outcome.run.label == label &&

@@ -27,6 +27,8 @@ class Findings {
   const std::vector<Outcome>& all() const { return outcomes_; }
   /// The scenes in the order of the plan.
   std::vector<std::string> scenes() const;
+  /// Whether the plan has runs of this label.
+  bool has(const std::string& label) const;
   /// Those on one scene, in the order of the plan.
   std::vector<const Outcome*> on(const std::string& scene) const;
   /// Throws Error(internal) for a run that the plan does not have.

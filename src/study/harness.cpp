@@ -16,6 +16,7 @@
 #include "rpf/io.h"
 #include "rpf/scene.h"
 #include "study/findings.h"
+#include "study/open_image_denoise.h"
 #include "study/story.h"
 #include "study/work.h"
 
@@ -34,7 +35,7 @@ void make_folder(const fs::path& folder) {
 
 /// What the run is called in file names: everything that its result depends on.
 std::string file_name_of(const Run& run) {
-  std::string name = fs::path(run.frame.samples).stem().stem().string() + " " + run.options;
+  std::string name = fs::path(run.frame.samples).stem().stem().string() + " " + treatment_of(run);
   for (char& c : name)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != ',' && c != '.') c = '_';
   return name;
@@ -50,10 +51,20 @@ Json commands_of(const Run& run) {
   const std::string scene = fmt::format("rpf scene {} --size {}x{}", f.scene, f.width, f.height);
   const std::string samples = fs::path(f.samples).filename().string(),
                     reference = fs::path(f.reference).filename().string();
-  return {fmt::format("{} --spp {} -o {}", scene, f.samples_per_pixel, samples),
-          fmt::format("{} --reference {} --sampler sobol -o {}", scene, f.reference_samples, reference),
-          fmt::format("rpf {} {} -o filtered.exr", run.options, samples),
-          fmt::format("rpf compare filtered.exr {}", reference)};
+  const std::string grow =
+      fmt::format("rpf adapt {} --spp {} -- {} --spp 1 --density {{density}} --seed {{seed}} -o {{output}}", samples,
+                  f.samples_per_pixel, scene);
+  Json commands = {fmt::format("{} --spp {}{} -o {}", scene, f.adapted ? bench::adapted_from : f.samples_per_pixel,
+                               f.penumbra ? " --penumbra" : "", samples)};
+  if (f.adapted) commands.push_back(grow);
+  commands.push_back(fmt::format("{} --reference {} --sampler sobol -o {}", scene, f.reference_samples, reference));
+  commands.push_back(run.denoised
+                         ? fmt::format("rpf {} --aov features.exr {} -o mean.exr  # then Open Image Denoise: color, "
+                                       "albedo, normal to filtered.exr",
+                                       run.options, samples)
+                         : fmt::format("rpf {} {} -o filtered.exr", run.options, samples));
+  commands.push_back(fmt::format("rpf compare filtered.exr {}", reference));
+  return commands;
 }
 
 /// Says how far the whole is while parts of it run.
@@ -143,12 +154,13 @@ class Measuring {
     const Settings settings = options_.settings_of(run.options);
     const double work = filtering_work(run.frame, settings);
     const bench::CostClock clock;
-    Result result = filter(std::move(samples), settings, meter.control(work));
+    Result result = run.denoised ? open_image_denoise(std::move(samples))
+                                 : filter(std::move(samples), settings, meter.control(work));
     const bench::Cost cost = clock.elapsed();
     meter.finish(work);
     make_folder(folder_ / "images");
     write_image(image_of(run), result.image);
-    Json line{{"label", run.label}, {"scene", run.frame.scene}, {"options", run.options}};
+    Json line{{"label", run.label}, {"scene", run.frame.scene}, {"options", treatment_of(run)}};
     line["commands"] = commands_of(run);
     line.update(bench::json_of({cost, cost, std::move(result.report), compare_images(result.image, reference)}));
     results_.add(key_of(run), line);
@@ -170,8 +182,7 @@ class Measuring {
     samples_ = {};
     samples_name_.clear();
     const double work = rendering_work(frame, frame.samples_per_pixel);
-    const SceneOptions options = bench::scene_options(frame, frame.samples_per_pixel, SceneSampler::random);
-    samples_ = render_scene(frame.scene, options, meter.control(work));
+    samples_ = bench::render_samples(frame, meter.control(work));
     meter.finish(work);
     samples_name_ = frame.samples;
     return samples_;

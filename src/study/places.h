@@ -24,6 +24,9 @@ constexpr Region floor_grain = {"floor", -0.4, 0.17, 0.8, 0.11};
 constexpr Region ball_grain = {"ball", -0.281, -0.094, 0.1625, 0.156};
 constexpr Region ball_and_floor = {"ball and floor", -0.281, -0.094, 0.25, 0.25};
 
+// soft-shadow: the floor at the right, where the shadows of pillars and box meet.
+constexpr Region penumbra = {"penumbra", 0.224, 0.047, 0.265, 0.213};
+
 // All scenes: what stands in the middle.
 constexpr Region center = {"center", -0.125, -0.07, 0.25, 0.14};
 

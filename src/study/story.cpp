@@ -26,9 +26,9 @@ std::string number(double value) {
 
 std::string verdict_of(bool holds) { return holds ? "holds" : "does not hold"; }
 
-std::string verdict_of(std::size_t holding, std::size_t all) {
+std::string verdict_of(std::size_t holding, std::size_t all, const char* what) {
   if (holding == all || holding == 0) return verdict_of(holding == all);
-  return fmt::format("holds on {} of {} scenes", holding, all);
+  return fmt::format("holds on {} of {} {}", holding, all, what);
 }
 
 Story::Story(const Experiment& experiment, const Extent& extent, const Findings& findings, std::string pictures)
@@ -62,7 +62,7 @@ void Story::runs(const Outcomes& outcomes, const std::vector<Column>& more) {
   report::Table table{{"", "options", "relMSE", "MSE", "SSIM", "FLIP", "energy", "CPU s"}, {}, 2};
   for (const Column& column : more) table.header.push_back(column.name);
   for (const Outcome* o : outcomes) {
-    std::vector<std::string> row = {o->run.label, o->run.options};
+    std::vector<std::string> row = {o->run.label, treatment_of(o->run)};
     for (const char* error : {"relMSE", "MSE", "SSIM", "FLIP"}) row.push_back(number(o->error(error)));
     row.push_back(fmt::format("{:.3f}", o->line.at("energy").get<double>()));
     row.push_back(fmt::format("{:.2f}", o->cpu()));

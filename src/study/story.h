@@ -36,6 +36,7 @@ class Story {
   bool quick() const { return quick_; }
   void heading(const std::string& text) { page_.heading(text); }
   void paragraph(const std::string& text) { page_.paragraph(text); }
+  void table(const report::Table& table) { page_.table(table); }
   void verdicts(const std::vector<Verdict>& verdicts);
   /// A row a run: label and options, relMSE, MSE, SSIM, FLIP, energy, CPU seconds, and more columns.
   void runs(const Outcomes& outcomes, const std::vector<Column>& more = {});
@@ -53,8 +54,8 @@ class Story {
   Column error_in(const Region& region);
   Column detail_in(const Region& region);
   Column step_in(const Region& region);
-  double number_in(const Outcome& outcome, const Region& region,
-                   double (*measure)(const Image&, const Image&, const Region&));
+  static double number_in(const Outcome& outcome, const Region& region,
+                          double (*measure)(const Image&, const Image&, const Region&));
 
  private:
   std::string picture_of(const Image& image, const std::string& name, const std::optional<Region>& region);
@@ -74,7 +75,7 @@ std::string number(double value);
 /// "holds" or "does not hold".
 std::string verdict_of(bool holds);
 
-/// "holds", "does not hold", or "holds on 2 of 3 scenes".
-std::string verdict_of(std::size_t holding, std::size_t all);
+/// "holds", "does not hold", or "holds on 2 of 3 scenes"; `what` was judged.
+std::string verdict_of(std::size_t holding, std::size_t all, const char* what = "scenes");
 
 }  // namespace rpf::study

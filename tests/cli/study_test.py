@@ -1,4 +1,4 @@
-"""rpf study as a user runs it, on tiny pictures. Usage: study_test.py RPF PROJECT"""
+"""rpf study as a user runs it, on tiny pictures. Usage: study_test.py RPF PROJECT FOLDER-OF-STAND-IN-DENOISER"""
 import json
 import os
 import re
@@ -13,6 +13,7 @@ from html.parser import HTMLParser
 from command_case import RPF, CommandCase
 
 SIZE = ["--quick", "--size", "16x12"]
+STAND_IN = sys.argv[3]
 for number in (signal.SIGINT, signal.SIGTERM):  # a shell ignores them for what it starts in the background
     signal.signal(number, signal.SIG_DFL)
 
@@ -72,7 +73,7 @@ class StudyTest(CommandCase):
     # ---- what there is
 
     def test_without_a_name_they_are_listed(self):
-        names = ("passes", "features", "effects", "methods", "textures", "spp", "thesis-vs-paper", "all")
+        names = ("passes", "features", "effects", "methods", "textures", "spp", "thesis-vs-paper", "contemporaries", "all")
         self.expect(run(), 0, *names)
         self.expect(run("--help"), 0, *names)
 
@@ -146,12 +147,75 @@ class StudyTest(CommandCase):
         for line in results.read_text().splitlines():
             json.loads(line)
 
+    # ---- contemporaries
+
+    def contemporaries(self, libraries=""):
+        return run("contemporaries", "-o", self.study, *SIZE, env={**os.environ, "LD_LIBRARY_PATH": libraries})
+
+    def test_contemporaries_with_open_image_denoise_and_without(self):
+        self.expect(self.contemporaries(STAND_IN), 0, "66 runs measured, 0 were there")
+        self.expect_whole("contemporaries")
+        document = self.json("contemporaries")
+        self.assertEqual(len(document["verdicts"]), 19)
+        for verdict in document["verdicts"]:
+            self.assertRegex(verdict["measured"], r"at [\d, ]+ samples: (dof|soft-shadow) [\d.]+")
+            self.assertIn("hold", verdict["verdict"])
+        denoised = [r for r in document["runs"] if r["label"] == "Open Image Denoise"]
+        self.assertEqual([round(r["energy"], 6) for r in denoised], [0.5] * 4)
+        self.assertEqual(len({r["label"] for r in document["runs"]}), 12 + 2 + 5)
+        self.expect(self.contemporaries(), 0, "0 runs measured, 62 were there")
+        self.assertIn("Open Image Denoise was not found", self.page("contemporaries"))
+        self.assertEqual(len(self.json("contemporaries")["verdicts"]), 18)
+
+    def expect_verdict(self, document, words, ratios, limit=1):
+        """ratios: {scene: [at 4, 16 samples]}, worked out from the runs"""
+        told = next(v for v in document["verdicts"] if words in v["statement"])
+        self.assertTrue(told["measured"].endswith(": " + "; ".join(f"{s} {', '.join(f'{r:.2f}' for r in of)}" for s, of in ratios.items())), told)
+        values = [r for of in ratios.values() for r in of]
+        holding = sum(r < limit for r in values)
+        verdict = {0: "does not hold", len(values): "holds"}.get(holding, f"holds on {holding} of {len(values)} frames")
+        self.assertEqual(told["verdict"], verdict, told)
+
+    def test_verdicts_follow_from_the_runs(self):
+        self.expect(self.contemporaries(STAND_IN), 0)
+        document = self.json("contemporaries")
+        runs = document["runs"]
+
+        def frame(r):
+            return r["scene"], re.search(r"-(\d+)spp", r["commands"][0])[1]
+
+        def ratios(label, others, key="relMSE"):
+            found = {}
+            for r in (r for r in runs if r["label"] == label):
+                least = min(o["error"][key] for o in runs if o["label"] in others and frame(o) == frame(r))
+                found.setdefault(r["scene"], []).append(r["error"][key] / least)
+            return found
+
+        best = {r["label"] for r in runs if "--preset" not in r["options"] and "adaptive" not in r["label"]}
+        self.expect_verdict(document, "gem (Rousselle", ratios("gem", ["Gaussian"]))
+        self.expect_verdict(document, "paper (Sen", ratios("paper", ["plain mean"]), 0.25)
+        self.expect_verdict(document, "the error of sbf", ratios("sbf, adaptive", ["sbf"], "trimmed_relMSE"))
+        self.expect_verdict(document, "balanced is better", ratios("balanced", best))
+        told = next(v for v in document["verdicts"] if "in a penumbra" in v["statement"])
+        parts = [float(text) for text in re.findall(r"\d\.\d\d", told["measured"].split("samples:")[1])]
+        self.assertTrue(0.25 < min(parts) < 1, told)  # less noise, but not what four times the samples bring
+        self.assertEqual(told["verdict"], "does not hold")
+
+    def test_adaptive_runs_are_repeated_by_their_commands(self):
+        self.expect(self.contemporaries(), 0)
+        run_ = next(r for r in self.json("contemporaries")["runs"] if r["label"] == "nlm, adaptive" and r["scene"] == "dof")
+        *commands, compare = [shlex.split(command.replace("-- rpf", f"-- '{RPF}'")) for command in run_["commands"]]
+        for command in commands:
+            subprocess.run([RPF, *command[1:]], cwd=self.folder, check=True, capture_output=True)
+        compared = subprocess.run([RPF, *compare[1:], "--json"], cwd=self.folder, check=True, capture_output=True, text=True)
+        self.assertEqual(json.loads(compared.stdout)["images"][0]["relMSE"], run_["error"]["relMSE"])
+
     # ---- all of them
 
     def test_all_of_them(self):
         self.expect(run("all", "-o", self.study, *SIZE), 0, "index.html")
         links = self.expect_whole("index", standalone=False).links
-        self.assertEqual(len(links), 7)
+        self.assertEqual(len(links), 8)
         for link in links:
             name = link.removesuffix(".html")
             self.expect_whole(name)

@@ -86,11 +86,12 @@ TEST(StudyPlans, NameEveryRunOnceAndScenesThatThereAre) {
   for (const SceneInfo& scene : scenes()) scene_names.insert(scene.name);
   for (const Experiment& experiment : experiments())
     for (const bool quick : {false, true}) {
-      std::set<std::string> labels, works;
+      std::set<std::string> labels, treatments;
       for (const study::Run& run : experiment.plan({64, 36, 8, quick})) {
         const std::string frame = run.frame.scene + std::to_string(run.frame.samples_per_pixel);
+        const std::string treatment = frame + (run.frame.adapted ? " adapted " : " ") + treatment_of(run);
         EXPECT_TRUE(labels.insert(frame + run.label).second) << experiment.name << ": " << run.label << " twice";
-        EXPECT_TRUE(works.insert(frame + run.options).second) << experiment.name << ": " << run.options << " twice";
+        EXPECT_TRUE(treatments.insert(treatment).second) << experiment.name << ": " << treatment << " twice";
         EXPECT_EQ(scene_names.count(run.frame.scene), 1U) << run.frame.scene;
         EXPECT_EQ(run.frame.width, 64);
         EXPECT_EQ(run.frame.reference_samples, 8);
