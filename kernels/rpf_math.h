@@ -148,6 +148,11 @@ RPF_INLINE float rpf_sharpness(float fraction_random, float noise, uint samples)
 // sharpness are both inside. One multiplication a neighbor instead of one a pair of samples.
 RPF_INLINE float rpf_distance_scale(float sharpness, float coefficient) { return sqrt(sharpness * coefficient); }
 
+// Own samples are weighed in groups of so many, or the last of fewer, so that the cost follows the samples, not their
+// square: of G groups, group g takes stretch g, g + G, g + 2 G, ... of the neighborhood, of as many neighbors each.
+#define RPF_GROUP (RPF_STRETCH * RPF_LANES)
+RPF_INLINE uint rpf_groups(uint own) { return (own + RPF_GROUP - 1) / RPF_GROUP; }
+
 // c''_i (T 5.11), held inside the range of the colors it averages: rounding cannot leave the convex hull.
 RPF_INLINE float rpf_filtered(float weighted_sum, float weight_sum, float smallest, float largest) {
   const float mean = weighted_sum / weight_sum;
@@ -155,8 +160,8 @@ RPF_INLINE float rpf_filtered(float weighted_sum, float weight_sum, float smalle
   return mean > largest ? largest : mean;
 }
 
-// How many equally weighted samples would average as much noise away as a pixel's mean of filtered samples does: 1 / sum_j
-// v_j^2, where v_j is the share of neighbor j in it. `squares`: sum_j (s v_j)^2.
+// How many equally weighted samples would average as much noise away as a pixel's mean of filtered samples does: 1 /
+// sum_j v_j^2, where v_j is the share of neighbor j in it. `squares`: sum_j (s v_j)^2.
 RPF_INLINE float rpf_effective_samples(uint samples, float squares) {
   return (float)samples * (float)samples / squares;
 }

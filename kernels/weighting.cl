@@ -18,6 +18,13 @@ static uint end_own(const rpf_pass* pass, const Means* means) {
   return RPF_LONG ? min(pass->end_own, means->own) : means->own;
 }
 
+// The own samples that take the stretch from block `first` on: from here to group_end().
+static uint group_begin(const Means* means, uint first) {
+  return first / RPF_STRETCH % rpf_groups(means->own) * RPF_GROUP;
+}
+
+static uint group_end(const Means* means, uint first) { return min(group_begin(means, first) + RPF_GROUP, means->own); }
+
 // The tree of rpf_lanes_total.
 static float lanes_total(float16 sum) {
   const float8 a = sum.lo + sum.hi;
@@ -67,9 +74,9 @@ typedef struct {
   float16 weight[RPF_BATCH], color[RPF_BATCH][RPF_CARRIED];
 } Sums;
 
-// The stretch from block `first` on, whose columns are filled, for the own samples from `begin` on.
-static void sum_stretch(const Slot* slot, const Means* means, float (*own)[RPF_COORDINATES], uint begin, uint first,
-                        uint last, const Trace* trace, Sums* sums) {
+// The stretch from block `first` on, whose columns are filled, for a batch of the own samples from `begin` to `end`.
+static void sum_stretch(const Slot* slot, const Means* means, float (*own)[RPF_COORDINATES], uint begin, uint end,
+                        uint first, uint last, const Trace* trace, Sums* sums) {
 #pragma unroll
   for (int i = 0; i < RPF_BATCH; ++i) {
     sums->weight[i] = 0.0f;
@@ -83,20 +90,20 @@ static void sum_stretch(const Slot* slot, const Means* means, float (*own)[RPF_C
       sums->weight[i] += weight[i];
       for (int c = 0; c < RPF_CARRIED; ++c)
         sums->color[i][c] += weight[i] * slot->columns[(RPF_FIRST_COLOR + c) * RPF_STRETCH + block - first];
-      if (begin + i < means->own) trace_weights(trace, begin + i, means->neighbors, block, weight[i]);
+      if (begin + i < end) trace_weights(trace, begin + i, means->neighbors, block, weight[i]);
     }
   }
 }
 
-// Adds a stretch to the sums of all own samples.
+// Adds a stretch to the sums of the own samples that take it.
 static void add_stretch(const rpf_pass* pass, const Slot* slot, const Means* means, uint first, uint last,
                         const Trace* trace) {
-  const uint end = end_own(pass, means);
-  for (uint begin = first_own(pass, means); begin < end; begin += RPF_BATCH) {
+  const uint end = min(end_own(pass, means), group_end(means, first));
+  for (uint begin = max(first_own(pass, means), group_begin(means, first)); begin < end; begin += RPF_BATCH) {
     float own[RPF_BATCH][RPF_COORDINATES];
     Sums stretch;
     load_own(pass, slot, means, begin, own);
-    sum_stretch(slot, means, own, begin, first, last, trace, &stretch);
+    sum_stretch(slot, means, own, begin, end, first, last, trace, &stretch);
 #pragma unroll
     for (uint i = 0; i < RPF_BATCH; ++i) {
       if (begin + i >= end) continue;
@@ -154,17 +161,18 @@ static float effective_samples(const rpf_pass* pass, const Slot* slot, const Mea
   const uint begin_block = RPF_LONG ? pass->first_block : 0;
   __global float16* kept = slot->sums + pass->most_samples * (1 + RPF_CARRIED);
   float16 squares = begin_block > 0 ? kept[0] : 0.0f;
-  for (uint first = begin_block; first < blocks; first += RPF_STRETCH) {
-    const uint last = min(first + RPF_STRETCH, blocks);
+  for (uint first = begin_block, last; first < blocks; first = last) {
+    last = min(first / RPF_STRETCH * RPF_STRETCH + RPF_STRETCH, blocks);  // stretches have groups
     fill_columns(pass, slot, means, first, last);
     for (uint block = first; block < last; ++block) {
       float16 share = 0.0f;
-      for (uint begin = 0; begin < means->own; begin += RPF_BATCH) {
+      const uint end = group_end(means, first);
+      for (uint begin = group_begin(means, first); begin < end; begin += RPF_BATCH) {
         float own[RPF_BATCH][RPF_COORDINATES];
         float16 weight[RPF_BATCH];
         load_own(pass, slot, means, begin, own);
         block_weights(slot, means->count, own, block - first, (int)(means->neighbors - block * RPF_LANES), weight);
-        for (uint i = 0; i < RPF_BATCH && begin + i < means->own; ++i)
+        for (uint i = 0; i < RPF_BATCH && begin + i < end; ++i)
           share += weight[i] * (1.0f / lanes_total(slot->sums[(begin + i) * (1 + RPF_CARRIED)]));
       }
       squares += share * share;

@@ -83,6 +83,19 @@ struct WeightedSums {
   }
 };
 
+/// The sums of the stretch from neighbor `first` on for own sample i. `row`, if not null, receives its weights: [N].
+void sum_stretch(const FilterScratch& scratch, std::uint32_t i, std::uint32_t first, std::uint32_t neighbors,
+                 float* row, WeightedSums& sums) {
+  const std::uint32_t last = std::min<std::uint32_t>(first + RPF_GROUP, neighbors);
+  float block[RPF_LANES];
+  sums.clear(sums.colors.size());
+  for (std::uint32_t begin = first; begin < last; begin += RPF_LANES) {
+    block_weights(scratch, i, begin, neighbors, block);
+    sums.add(block, scratch, begin);
+    if (row) std::copy_n(block, std::min<std::uint32_t>(RPF_LANES, neighbors - begin), row + begin);
+  }
+}
+
 /// Mean and standard deviation of one channel of a pixel's filtered samples. The mean is relative to `shift`: with two
 /// samples both are exactly one standard deviation off, and only differences tell that from more.
 struct ChannelMoments {
@@ -125,18 +138,16 @@ void average(std::size_t carried, const Neighborhood& n, std::uint32_t own, cons
              FilterScratch& scratch, float* out, std::vector<float>* weights_out) {
   collect_colors(carried, n, colors, scratch);
   scratch.inverse_total.resize(own);
+  if (weights_out) weights_out->assign(std::size_t{own} * n.size(), 0.0F);
+  const std::uint32_t apart = kernel::rpf_groups(own) * RPF_GROUP;
   WeightedSums sums, stretch;
-  float block[RPF_LANES];
   for (std::uint32_t i = 0; i < own && !must_stop(); ++i) {
     sums.clear(carried);
-    for (std::uint32_t begin = 0; begin < n.size(); begin += RPF_LANES) {
-      if (begin % (RPF_STRETCH * RPF_LANES) == 0) stretch.clear(carried);
-      block_weights(scratch, i, begin, n.size(), block);
-      stretch.add(block, scratch, begin);
-      if (weights_out)
-        weights_out->insert(weights_out->end(), block, block + std::min<std::uint32_t>(RPF_LANES, n.size() - begin));
-      const std::uint32_t next = begin + RPF_LANES;
-      if (next % (RPF_STRETCH * RPF_LANES) == 0 || next >= n.size()) sums.add(stretch);
+    stretch.clear(carried);
+    float* row = weights_out ? weights_out->data() + std::size_t{i} * n.size() : nullptr;
+    for (std::uint32_t first = i / RPF_GROUP * RPF_GROUP; first < n.size(); first += apart) {
+      sum_stretch(scratch, i, first, n.size(), row, stretch);
+      sums.add(stretch);
     }
     const float total = kernel::rpf_lanes_total(&sums.weight);
     scratch.inverse_total[i] = 1.0F / total;
@@ -152,7 +163,8 @@ float effective_samples(std::uint32_t own, std::uint32_t neighbors, const Filter
   float block[RPF_LANES];
   for (std::uint32_t begin = 0; begin < neighbors && !must_stop(); begin += RPF_LANES) {
     float share[RPF_LANES] = {};
-    for (std::uint32_t i = 0; i < own; ++i) {
+    const std::uint32_t group = begin / RPF_GROUP % kernel::rpf_groups(own) * RPF_GROUP;
+    for (std::uint32_t i = group; i < std::min<std::uint32_t>(group + RPF_GROUP, own); ++i) {
       block_weights(scratch, i, begin, neighbors, block);
       for (int l = 0; l < RPF_LANES; ++l) share[l] += block[l] * scratch.inverse_total[i];
     }

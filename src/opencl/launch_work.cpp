@@ -54,7 +54,7 @@ std::uint64_t work_of(const Frame& frame, const Plan& plan, int pass, const Wind
 
 bool has_long_pixels(const Plan& plan, std::uint64_t weights_at_once) {
   return std::any_of(plan.passes.begin(), plan.passes.end(), [&](const PassPlan& pass) {
-    return std::uint64_t{plan.most_samples} * pass.max_neighbors > weights_at_once;
+    return PixelWork{plan.most_samples, pass.max_neighbors}.weights() > weights_at_once;
   });
 }
 

@@ -1,11 +1,13 @@
 // How much work a launch is: no launch can be stopped, so none may take long.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
 #include "frame/frame.h"
 #include "plan/plan.h"
+#include "rpf_math.h"
 
 namespace rpf {
 
@@ -13,7 +15,8 @@ namespace rpf {
 struct PixelWork {
   std::uint64_t own = 0, neighbors = 0;
 
-  std::uint64_t weights() const { return own * neighbors; }
+  /// At most: a neighbor is weighed for the own samples of one group.
+  std::uint64_t weights() const { return std::min<std::uint64_t>(own, RPF_GROUP) * neighbors; }
 };
 
 /// Of a pixel without samples all is 0.

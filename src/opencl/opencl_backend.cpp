@@ -303,11 +303,11 @@ void OpenClBackend::launch_long_pixels(int pass, const Window& piece, const Band
   a.outlier_step = 0;
   a.end_block = 0;
   for (a.first_own = 0; a.first_own < own; a.first_own = a.end_own) {
-    a.end_own = a.first_own + part(most.neighbors, own - a.first_own);
+    a.end_own = a.first_own + part(most.weights() / most.own, own - a.first_own);
     launch_next();
   }
   for (a.first_block = 0; plan_->explain && a.first_block < blocks; a.first_block = a.end_block) {
-    a.end_block = a.first_block + part(most.own * RPF_LANES, blocks - a.first_block);
+    a.end_block = a.first_block + part(most.weights() / blocks, blocks - a.first_block);
     launch_next();
   }
   if (!plan_->outlier_step) return;

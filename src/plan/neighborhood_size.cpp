@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rpf_math.h"
+
 namespace rpf {
 
 std::uint32_t NeighborhoodSize::size(std::uint32_t samples) const {
-  const std::uint64_t wanted = grows_with_samples ? std::uint64_t{box_area} * samples / 2 : fixed;
+  const std::uint64_t counted = std::min<std::uint64_t>(samples, RPF_GROUP);
+  const std::uint64_t wanted = grows_with_samples ? box_area * counted / 2 : fixed;
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, limit));
 }
 

@@ -13,7 +13,7 @@ constexpr std::uint32_t most_neighbors = 1U << 24;
 /// M, for any number of own samples.
 struct NeighborhoodSize {
   std::uint32_t box_area = 1;       ///< b^2
-  bool grows_with_samples = false;  ///< M = b^2 s / 2 (paper) instead of `fixed`
+  bool grows_with_samples = false;  ///< M = b^2 min(s, RPF_GROUP) / 2 (paper) instead of `fixed`
   std::uint32_t fixed = 0;          ///< M otherwise
   std::uint32_t limit = most_neighbors;
 

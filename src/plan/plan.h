@@ -30,7 +30,7 @@ struct PassPlan {
   float nats_per_unit = 0;  ///< ln 2 / entropy.units_per_bit
   // Of a method with fixed weights, which needs box_width and max_neighbors of the others.
   std::vector<Coordinate> coordinates;
-  std::uint64_t fixed_weights = 0;  ///< of a pixel at most: own samples times neighbors
+  std::uint64_t fixed_weights = 0;  ///< of a pixel at most: own samples of a group times neighbors
   Window region;  ///< pixels to filter in this pass, frame coordinates (the crop and what later passes need around it)
 };
 

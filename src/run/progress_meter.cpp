@@ -22,7 +22,9 @@ double cost_of(const PassPlan& pass) {
 std::size_t tile_pixels(const PassPlan& pass, int threads) {
   // A neighbor costs about 0.5 microseconds in the scalar reference.
   constexpr double neighbors_per_tile = 1e6;
-  return static_cast<std::size_t>(std::max(1.0, threads * neighbors_per_tile / cost_of(pass)));
+  constexpr std::size_t most_tiles = 1000;  // a thousandth of a pass is progress enough
+  const auto by_cost = static_cast<std::size_t>(std::max(1.0, threads * neighbors_per_tile / cost_of(pass)));
+  return std::max(by_cost, pass.region.pixel_count() / most_tiles);
 }
 
 ProgressMeter::ProgressMeter(const Plan& plan, const Control& control)

@@ -8,7 +8,8 @@
 
 namespace rpf {
 
-/// Pixels for one call of the backend: about half a second of work in this pass.
+/// Pixels for one call of the backend: about half a second of work in this pass if all were as crowded as the most
+/// crowded one, and more where that would be thousands of calls.
 std::size_t tile_pixels(const PassPlan& pass, int threads);
 
 class ProgressMeter {

@@ -93,6 +93,11 @@ def with_gaps(seed):
     return counts.ravel()
 
 
+def crowded():
+    """Counts of 3 x 3 pixels: one of 700 between others of 3."""
+    return np.where(np.arange(9) == 4, 700, 3)
+
+
 def some(rng, n, part):
     """A random mask [n] that is true for about this part."""
     return rng.random(n) < part
@@ -190,6 +195,7 @@ FIXED_CASES = {
     "bilateral": lambda: fixed("bilateral", 53),
     "bilateral_spp1": lambda: fixed("bilateral", 54, spp=1),
     "bilateral_gaps": lambda: fixed("bilateral", 55, spp=with_gaps(55), sigma_color=0.05),
+    "bilateral_crowded": lambda: fixed("bilateral", 62, width=3, height=3, spp=crowded()[::-1], boxes=[3]),
     "bilateral_hdr": lambda: fixed("bilateral", 56, change=add_weighted_fireflies, sigma_color=3000),
     "bilateral_1e-30": lambda: fixed("bilateral", 57, change=scaled_radiance(1e-30), sigma_color=2e-29),
     "bilateral_1e30": lambda: fixed("bilateral", 57, change=scaled_radiance(1e30), sigma_color=2e29),
@@ -279,6 +285,7 @@ CASES = {
     "radiance_1e30": lambda: simple(35, 9, 7, profile="paper", change=scaled_radiance(1e30)),
     "far_world": lambda: simple(36, 9, 7, change=far_world(1e5)),       # spreads are far above 1e-6 of the magnitude
     "far_small_world": lambda: simple(36, 9, 7, change=far_world(100)),  # many are below, and count as none
+    "crowded": lambda: simple(37, 3, 3, spp=crowded(), boxes=[9], samples_factor=18.0, random=["lens"], features=["albedo"]),
     "one_pixel": lambda: simple(33, 1, 1, spp=5, profile="paper", boxes=[5, 3]),
     "one_row": lambda: simple(34, 13, 1, profile="paper", random=["lens", "light"]),
     **FIXED_CASES,

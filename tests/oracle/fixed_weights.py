@@ -50,7 +50,7 @@ def filter_pixel(frame, pixel, box, place, color):
     neighbors = samples_in_box(frame, pixel, box)
     own, all_ = place[neighbors[:frame.counts[pixel]]], place[neighbors]
     distance = np.sqrt(((own[:, None] - all_[None]) ** 2).sum(axis=2))
-    weights = np.exp(-distance ** 2 / 2)
+    weights = np.where(oracle.weighed(*distance.shape), np.exp(-distance ** 2 / 2), 0.0)
     slack = weights * (1 + distance ** 2 + distance * np.abs(all_).max())
     return {"neighbors": neighbors, "weights": weights, "slack": slack,
             "filtered": oracle.filtered_colors(weights, color[neighbors])}

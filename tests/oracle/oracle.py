@@ -12,6 +12,7 @@ from scene_frame import FIRST_RANDOM
 
 EPSILON = 1e-10             # eps of T 5.4-5.6
 NEGLIGIBLE_STD = 1e-6       # section 4: a standard deviation below this part of the largest magnitude is 0
+GROUP = 512                 # sections 3 and 6: own samples that are weighed together
 OUTLIER_SLACK = 1e-5        # section 7: this near to one standard deviation counts as equal to it
 
 
@@ -22,7 +23,7 @@ def requested_samples(settings, box, s):
     if settings["samples_factor"] is not None:
         wanted = int(np.floor(settings["samples_factor"] * box * box))
     else:
-        wanted = box * box * s // 2 if settings["profile"] == "paper" else box * box // 2
+        wanted = box * box * min(s, GROUP) // 2 if settings["profile"] == "paper" else box * box // 2
     return wanted if settings["max_samples"] is None else min(wanted, settings["max_samples"])
 
 
@@ -171,13 +172,20 @@ def variance(noise, s):
     return 8.0 * noise / s
 
 
+def weighed(s, n):
+    """Which of n neighbors take part in the mean of which of s own samples [s, n]: group g of G has stretches g, g + G, ..."""
+    group, stretch = np.arange(s) // GROUP, np.arange(n) // GROUP
+    return group[:, None] == stretch % (-(-s // GROUP))
+
+
 def weights(frame, normalized, s, alpha, beta, fraction_random):
     """w_ij [s, N] (T 5.3 with 5.10) from the normalized neighborhood [N, V], whose first s rows are the own samples."""
     features = frame.first_feature
     difference = normalized[:s, None, :] - normalized[None, :, :]
     distance = ((difference[..., :3] ** 2 * alpha).sum(axis=2)
                 + (difference[..., features:] ** 2 * beta).sum(axis=2))
-    return np.exp(-(1.0 - fraction_random) ** 2 / (2.0 * variance(frame.settings["noise"], s)) * distance)
+    w = np.exp(-(1.0 - fraction_random) ** 2 / (2.0 * variance(frame.settings["noise"], s)) * distance)
+    return np.where(weighed(s, len(normalized)), w, 0.0)
 
 
 def filtered_colors(w, color):

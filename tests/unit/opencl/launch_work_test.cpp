@@ -45,18 +45,19 @@ TEST(LaunchWork, HalvesAreTheTile) {
 }
 
 TEST(LaunchWork, CountsWhatIsThere) {
-  const SampleBuffer samples = frame_with_a_long_pixel(500);
+  const SampleBuffer samples = frame_with_a_long_pixel(700);
   Settings settings;
   settings.box_widths = {3};
   settings.method = Method::bilateral;
   const PreparedFrame prepared = prepare(samples, settings);
   const Plan plan = make_plan(prepared.facts, settings);
-  EXPECT_EQ(pixel_work(prepared.frame, plan, 0, 3, 3).weights(), 500U * (500 + 8 * 3));
-  EXPECT_EQ(pixel_work(prepared.frame, plan, 0, 0, 0).weights(), 3U * 4 * 3);  // the box ends at the frame
-  EXPECT_EQ(pixel_work(prepared.frame, plan, 0, 3, 1).weights(), 0U);          // no samples
-  EXPECT_TRUE(has_long_pixels(plan, 500 * 500));
-  EXPECT_EQ(most_work(prepared.frame, plan, 0, {0, 0, 9, 7}).own, 500U);
-  EXPECT_GT(work_of(prepared.frame, plan, 0, {0, 0, 9, 7}), 500U * 524);
+  EXPECT_EQ(pixel_work(prepared.frame, plan, 0, 3, 3).weights(), 512U * (700 + 8 * 3));  // of a group
+  EXPECT_EQ(pixel_work(prepared.frame, plan, 0, 0, 0).weights(), 3U * 4 * 3);            // the box ends at the frame
+  EXPECT_EQ(pixel_work(prepared.frame, plan, 0, 3, 1).weights(), 0U);                    // no samples
+  EXPECT_TRUE(has_long_pixels(plan, 512 * 700));
+  EXPECT_FALSE(has_long_pixels(plan, std::uint64_t{512} * plan.passes[0].max_neighbors));
+  EXPECT_EQ(most_work(prepared.frame, plan, 0, {0, 0, 9, 7}).own, 700U);
+  EXPECT_GT(work_of(prepared.frame, plan, 0, {0, 0, 9, 7}), 512U * 724);
 }
 
 struct Case {
@@ -94,7 +95,7 @@ TEST_P(LongPixels, AreTheSameBitsHoweverTheyAreCut) {
       EXPECT_EQ(device.statistics()[pixel].neighbors, reference.statistics()[pixel].neighbors) << pixel;
       EXPECT_EQ(device.statistics()[pixel].beta, reference.statistics()[pixel].beta) << pixel;
     }
-    const auto parts = static_cast<int>(700 * 700 / weights_at_once);
+    const auto parts = static_cast<int>(512 * 700 / weights_at_once);
     EXPECT_GE(checks, std::max(parts, 1));
     device.end_pass();
     CpuBackend again(2);

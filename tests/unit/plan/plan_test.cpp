@@ -31,6 +31,7 @@ TEST(NeighborhoodSize, IsHalfTheBoxInTheThesisAndGrowsInThePaper) {
   EXPECT_EQ(neighborhood_size(paper, 55).size(4), 6050U);
   EXPECT_EQ(neighborhood_size(paper, 7).size(3), 73U);
   EXPECT_EQ(neighborhood_size(paper, 7).size(0), 0U);
+  EXPECT_EQ(neighborhood_size(paper, 7).size(513), 12544U);  // as of 512: more gain nothing and cost much
 }
 
 TEST(NeighborhoodSize, FollowsFactorAndLimit) {
