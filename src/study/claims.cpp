@@ -57,19 +57,18 @@ Claim adapted_gains(const Findings& findings, const std::string& label) {
           [=, &findings](const Outcome& o) { return part_of_even(findings, o, label); }};
 }
 
-/// Against the best of all that are no preset, picked frame by frame.
+/// Against the best of all that are no network, picked frame by frame.
 Claim beats_all(const Findings& findings, const std::string& preset) {
   const auto best = [&findings](const Outcome& of) {
     double least = std::numeric_limits<double>::infinity();
     for (const Outcome* o : findings.on(of.run.frame.scene))
       if (o->run.frame.samples_per_pixel == of.run.frame.samples_per_pixel && o->run.options.find("--preset") != 0 &&
-          !o->run.frame.adapted)
+          !o->run.denoised && !o->run.frame.adapted)
         least = std::min(least, o->error("relMSE"));
     return least;
   };
-  return {fmt::format("{} is better than the best of the others", preset), preset,
-          "relMSE over the least of those that are no preset",
-          [=](const Outcome& o) { return o.error("relMSE") / best(o); }};
+  return {fmt::format("{} is better than the best filter without a network", preset), preset,
+          "relMSE over the least of those filters", [=](const Outcome& o) { return o.error("relMSE") / best(o); }};
 }
 
 Verdict judged(const Findings& findings, const Claim& claim) {
@@ -82,7 +81,7 @@ Verdict judged(const Findings& findings, const Claim& claim) {
       if (o->run.label != claim.label) continue;
       const double ratio = claim.value(*o);
       holding += ratio < claim.limit ? 1 : 0;
-      ratios.push_back(fmt::format("{:.2f}", ratio));
+      ratios.push_back(number(ratio));
       ++all;
       counts.insert(o->run.frame.samples_per_pixel);
     }
