@@ -21,7 +21,7 @@ MUTANTS = [
     Mutant("error_chance", FILE, "std::max(sum - variance / sum, 0.0)", "sum", BLUR, "bias: chance counts"),
     Mutant("error_chance_unbiased", FILE, " * count / (count - 1);", ";", BLUR, "bias: variance of as many numbers as there are"),
     Mutant("error_below_zero", FILE, "if (sum <= 0 || count < 2) return 0;", "if (count < 2) return 0;",
-           FORMULA, "bias: what is below 0 counts"),
+           FORMULA + "WithoutBias", "bias: what is below 0 counts"),
     Mutant("error_one_half", FILE, "- samples.first_sample[p] > 1 ? 1 : 0", "- samples.first_sample[p] > 0 ? 1 : 0",
            FORMULA, "means: pixels with one half only count"),
     Mutant("error_crop_row", FILE, "for (int y = image.y - frame.y; y < image.y - frame.y + image.height; ++y)", "for (int y = 0; y < image.height; ++y)",
