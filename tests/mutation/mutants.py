@@ -102,7 +102,7 @@ MUTANTS = [
            "Plan.AllowsOneAttemptMoreThanRedraws", "draws: one attempt too many"),
     Mutant("draws_own_too", SIZE, "return std::max(size(samples), samples) - samples;", "return size(samples);",
            "NeighborhoodSize.IsHalfTheBoxInTheThesisAndGrowsInThePaper", "draws: M instead of M - s"),
-    Mutant("paper_without_samples", SIZE, "std::uint64_t{box_area} * samples / 2", "std::uint64_t{box_area} / 2",
+    Mutant("paper_without_samples", SIZE, "box_area * counted / 2", "box_area / 2 + 0 * counted",
            "oracle spp4_paper draws", "draws: M of the paper without s"),
     Mutant("limit_ignored", SIZE, "std::min<std::uint64_t>(wanted, limit)", "std::min<std::uint64_t>(wanted, most_neighbors)",
            "NeighborhoodSize.FollowsFactorAndLimit", "draws: --max-samples is not obeyed"),
