@@ -50,6 +50,16 @@ void write_sample_rows(const std::string& path, SampleRows& rows, const std::vec
 /// Bytes that this takes at the most.
 std::uint64_t write_rows_memory(const SampleRows& rows);
 
+/// A rendering to be merged with others, row by row.
+struct RowsPart {
+  std::string name;  ///< what errors call it, for example its file
+  std::unique_ptr<SampleRows> rows;
+};
+
+/// merge_samples() of rows that are read when they are needed, each as often as it is asked for. Looks for repeated
+/// samples at once, which of different renderings takes the first row of each. Throws as merge_samples() does.
+std::unique_ptr<SampleRows> merge_rows(std::vector<RowsPart> parts);
+
 /// What filter() finds out of all samples of a frame together, in one pass over its rows, as JSON: notes, what is
 /// constant, how bright it is, where it lies. Depends on the settings but for crop, backend, threads and memory. Throws
 /// as filter() does.

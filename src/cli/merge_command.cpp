@@ -1,37 +1,26 @@
-#include <fmt/format.h>
-
 #include "cli/commands.h"
 #include "cli/dropped.h"
-#include "cli/print.h"
+#include "cli/needs.h"
+#include "cli/progress_bar.h"
 #include "cli/sample_options.h"
 #include "rpf/error.h"
 #include "rpf/outputs.h"
+#include "rpf/rows.h"
 
 namespace rpf::cli {
 namespace {
 
-std::size_t slot_count(const SampleFileInfo& file) {
-  std::size_t count = 0;
-  for (const SampleFileChannel& channel : file.channels) count += channel.slot.empty() ? 0 : 1;
-  return count;
+std::vector<RowsPart> open_parts(const SampleFileOptions& options, const SampleReadOptions& read_options) {
+  std::vector<RowsPart> parts;
+  for (const std::string& input : options.inputs) parts.push_back({input, open_sample_rows(input, read_options)});
+  return parts;
 }
 
-/// Needs more than the limit: refused before anything is read.
-void check_budget(const std::vector<SampleFileInfo>& files, std::uint64_t limit) {
-  std::uint64_t samples = 0, pixels = 0;
-  std::size_t slots = 0;
-  for (const SampleFileInfo& file : files) {
-    samples += file.sample_count;
-    pixels = std::max(pixels, static_cast<std::uint64_t>(file.data_window.pixel_count()));
-    slots = std::max(slots, slot_count(file));
-  }
-  const std::uint64_t need = merging_bytes(pixels, samples, slots, files.size());
-  if (need > limit)
-    throw Error(
-        ErrorKind::memory,
-        fmt::format("merge: {} files need {:.0f} MB, the limit is {:.0f} MB; raise --max-memory, merge fewer or "
-                    "leave slots out with --map SLOT=",
-                    files.size(), static_cast<double>(need) / megabyte, static_cast<double>(limit) / megabyte));
+/// Bytes of some rows of all parts, and of as many of the result.
+std::uint64_t merging_memory(const std::vector<RowsPart>& parts) {
+  std::uint64_t bytes = 0;
+  for (const RowsPart& part : parts) bytes += 2 * write_rows_memory(*part.rows);
+  return bytes;
 }
 
 int run(const SampleFileOptions& options) {
@@ -40,15 +29,18 @@ int run(const SampleFileOptions& options) {
   const SampleReadOptions read_options = read_options_of(options);
   std::vector<SampleFileInfo> files;
   for (const std::string& input : options.inputs) files.push_back(inspect_samples(input, read_options));
-  check_budget(files, read_options.max_memory);
   check_outputs({{options.output, OutputKind::samples, {}, {}, true}}, options.inputs);
   for (const SampleFileInfo& file : files) {
     check_in_place(file, options.output);
     tell_dropped(file);
   }
-  std::vector<SamplePart> parts;
-  for (const std::string& input : options.inputs) parts.push_back({input, read_samples(input, read_options)});
-  return write_and_tell(options.output, merge_samples(std::move(parts)), half_slots_of(files));
+  std::vector<RowsPart> parts = open_parts(options, read_options);
+  check_need(files.front(), "merging", merging_memory(parts), read_options.max_memory,
+             ", merge fewer or leave slots out with --map SLOT=");
+  const auto rows = merge_rows(std::move(parts));
+  with_progress(
+      "auto", [&](const Control& control) { write_sample_rows(options.output, *rows, half_slots_of(files), control); });
+  return tell_written(options.output, rows->frame(), rows->sample_count());
 }
 
 }  // namespace

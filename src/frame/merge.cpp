@@ -1,4 +1,6 @@
 // Joins renderings of one frame, sample by sample.
+#include "frame/merge.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -60,67 +62,22 @@ bool repeats_first(const SampleBuffer& a, const SampleBuffer& b, std::size_t pix
   return false;
 }
 
-/// Whether every pixel shares a sample: a file merged with itself, with a merge that holds it, or with more samples of
-/// the same seed. Other renderings differ in the first pixel, so this costs nothing.
-bool repeats(const SampleBuffer& a, const SampleBuffer& b) {
-  bool any = false;
-  for (std::size_t pixel = 0; pixel < a.data_window.pixel_count(); ++pixel) {
-    const bool in_both =
-        a.first_sample[pixel] < a.first_sample[pixel + 1] && b.first_sample[pixel] < b.first_sample[pixel + 1];
-    if (!in_both) continue;
-    if (!repeats_first(a, b, pixel) && !repeats_first(b, a, pixel)) return false;
-    any = true;
-  }
-  return any;
-}
-
-void check_repetition(const SamplePart& a, const SamplePart& b) {
-  if (!repeats(a.samples, b.samples)) return;
-  reject(
-      fmt::format("\"{}\" repeats samples of \"{}\" in every pixel (seeds {} and {}), which would lower no noise; "
-                  "render it with another seed",
-                  b.name, a.name, seeds_of(b.samples), seeds_of(a.samples)));
-}
-
-/// The records of a buffer in the order of another layout that has the same slots.
-void reorder(SampleBuffer& samples, const SampleLayout& layout) {
-  if (samples.layout.slots == layout.slots) return;
-  std::vector<std::size_t> columns;
-  for (const std::string& slot : layout.slots) columns.push_back(*samples.layout.find(slot));
-  std::vector<float> record(layout.size());
-  for (std::size_t s = 0; s < samples.sample_count(); ++s) {
-    std::copy_n(samples.record(s), record.size(), record.begin());
-    for (std::size_t c = 0; c < columns.size(); ++c) samples.record(s)[c] = record[columns[c]];
-  }
-  samples.layout = layout;
-}
-
 void check_parts(std::vector<SamplePart>& parts) {
   if (parts.empty()) throw Error(ErrorKind::usage, "merge_samples: one or more sample buffers are expected");
   std::uint64_t total = 0;
   for (SamplePart& part : parts) {
     part.samples.validate();
-    check_window(parts.front(), part);
-    check_slots(parts.front(), part);
-    check_slots(part, parts.front());
+    check_alike(parts.front(), part);
     reorder(part.samples, parts.front().samples.layout);
     total += part.samples.sample_count();
   }
-  if (total > most_samples_of_frame)
-    reject(fmt::format("\"{}\" and the others hold {} samples, more than the {} that one buffer takes; merge fewer",
-                       parts.front().name, total, most_samples_of_frame));
+  check_total(parts.front().name, total);
   for (std::size_t b = 1; b < parts.size(); ++b)
-    for (std::size_t a = 0; a < b; ++a) check_repetition(parts[a], parts[b]);
-}
-
-Metadata merged_metadata(const std::vector<SamplePart>& parts) {
-  Metadata metadata = parts.front().samples.metadata;
-  if (parts.size() == 1) return metadata;
-  std::string seeds;
-  for (const SamplePart& part : parts) seeds += (seeds.empty() ? "" : " ") + seeds_of(part.samples);
-  metadata.erase(seed_attribute);
-  metadata[seeds_attribute] = seeds;
-  return metadata;
+    for (std::size_t a = 0; a < b; ++a) {
+      Repetition repetition;
+      repetition.look(parts[a].samples, parts[b].samples);
+      repetition.check(parts[a], parts[b]);
+    }
 }
 
 std::vector<std::uint32_t> merged_offsets(const std::vector<SamplePart>& parts) {
@@ -141,8 +98,59 @@ void place(const SampleBuffer& part, std::vector<std::uint32_t>& next, SampleBuf
 
 }  // namespace
 
-SampleBuffer merge_samples(std::vector<SamplePart> parts) {
-  check_parts(parts);
+void reorder(SampleBuffer& samples, const SampleLayout& layout) {
+  if (samples.layout.slots == layout.slots) return;
+  std::vector<std::size_t> columns;
+  for (const std::string& slot : layout.slots) columns.push_back(*samples.layout.find(slot));
+  std::vector<float> record(layout.size());
+  for (std::size_t s = 0; s < samples.sample_count(); ++s) {
+    std::copy_n(samples.record(s), record.size(), record.begin());
+    for (std::size_t c = 0; c < columns.size(); ++c) samples.record(s)[c] = record[columns[c]];
+  }
+  samples.layout = layout;
+}
+
+void check_alike(const SamplePart& first, const SamplePart& other) {
+  check_window(first, other);
+  check_slots(first, other);
+  check_slots(other, first);
+}
+
+void check_total(const std::string& first, std::uint64_t samples) {
+  if (samples > most_samples_of_frame)
+    reject(fmt::format("\"{}\" and the others hold {} samples, more than the {} that one file takes; merge fewer",
+                       first, samples, most_samples_of_frame));
+}
+
+void Repetition::look(const SampleBuffer& a, const SampleBuffer& b) {
+  for (std::size_t pixel = 0; pixel < a.data_window.pixel_count() && everywhere; ++pixel) {
+    const bool in_both =
+        a.first_sample[pixel] < a.first_sample[pixel + 1] && b.first_sample[pixel] < b.first_sample[pixel + 1];
+    if (!in_both) continue;
+    everywhere = repeats_first(a, b, pixel) || repeats_first(b, a, pixel);
+    any = true;
+  }
+}
+
+void Repetition::check(const SamplePart& a, const SamplePart& b) const {
+  if (!any || !everywhere) return;
+  reject(
+      fmt::format("\"{}\" repeats samples of \"{}\" in every pixel (seeds {} and {}), which would lower no noise; "
+                  "render it with another seed",
+                  b.name, a.name, seeds_of(b.samples), seeds_of(a.samples)));
+}
+
+Metadata merged_metadata(const std::vector<SamplePart>& parts) {
+  Metadata metadata = parts.front().samples.metadata;
+  if (parts.size() == 1) return metadata;
+  std::string seeds;
+  for (const SamplePart& part : parts) seeds += (seeds.empty() ? "" : " ") + seeds_of(part.samples);
+  metadata.erase(seed_attribute);
+  metadata[seeds_attribute] = seeds;
+  return metadata;
+}
+
+SampleBuffer joined(std::vector<SamplePart> parts) {
   SampleBuffer merged;
   merged.data_window = parts.front().samples.data_window;
   merged.display_window = parts.front().samples.display_window;
@@ -152,10 +160,16 @@ SampleBuffer merge_samples(std::vector<SamplePart> parts) {
   merged.values.resize(merged.sample_count() * merged.layout.size());
   std::vector<std::uint32_t> next(merged.first_sample.begin(), merged.first_sample.end() - 1);
   for (SamplePart& part : parts) {
+    reorder(part.samples, merged.layout);
     place(part.samples, next, merged);
     part.samples = {};  // gives its memory back
   }
   return merged;
+}
+
+SampleBuffer merge_samples(std::vector<SamplePart> parts) {
+  check_parts(parts);
+  return joined(std::move(parts));
 }
 
 std::uint64_t merging_bytes(std::uint64_t pixels, std::uint64_t samples, std::size_t slots, std::size_t parts) {

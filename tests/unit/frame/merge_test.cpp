@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "deep_files.h"
+#include "io/row_pieces.h"
 #include "rpf/filter.h"
+#include "rpf/rows.h"
 #include "temporary_folder.h"
 #include "test_frames.h"
 
@@ -36,8 +38,19 @@ SampleBuffer half_of(const SampleBuffer& whole, std::uint32_t begin) {
   return half;
 }
 
+std::unique_ptr<SampleRows> merged_rows(const std::vector<const SampleBuffer*>& buffers) {
+  std::vector<RowsPart> parts;
+  for (const SampleBuffer* buffer : buffers)
+    parts.push_back(
+        {std::string(1, static_cast<char>('a' + parts.size())) + ".exr", std::make_unique<io::BufferRows>(*buffer)});
+  return merge_rows(std::move(parts));
+}
+
+/// Of both ways to merge, which refuse the same.
 std::string merge_error(const SampleBuffer& a, const SampleBuffer& b) {
-  return error_of([&] { merge_samples({{"a.exr", a}, {"b.exr", b}}); });
+  const std::string error = error_of([&] { merge_samples({{"a.exr", a}, {"b.exr", b}}); });
+  EXPECT_EQ(error_of([&] { merged_rows({&a, &b}); }), error);
+  return error;
 }
 
 TEST(Merge, KeepsEverySampleOfTheFirstThenOfTheSecond) {
@@ -51,6 +64,25 @@ TEST(Merge, KeepsEverySampleOfTheFirstThenOfTheSecond) {
       for (std::size_t s = part->first_sample[p]; s < part->first_sample[p + 1]; ++s, ++next)
         ASSERT_EQ(std::memcmp(merged.record(next), part->record(s), a.layout.size() * sizeof(float)), 0);
     ASSERT_EQ(next, merged.first_sample[p + 1]);
+  }
+}
+
+TEST(Merge, RowByRowMakesTheSame) {
+  const SampleBuffer a = frame(1, 0), b = frame(2, 3);
+  SampleBuffer c = frame(3, 1);
+  std::swap(c.layout.slots[0], c.layout.slots[6]);  // another order
+  const SampleBuffer whole = merge_samples({{"a", a}, {"b", b}, {"c", c}});
+  const std::unique_ptr<SampleRows> rows = merged_rows({&a, &b, &c});
+  EXPECT_EQ(rows->frame().metadata, whole.metadata);
+  EXPECT_EQ(rows->frame().layout.slots, whole.layout.slots);
+  EXPECT_EQ(rows->sample_count(), whole.sample_count());
+  io::BufferRows expected(whole);
+  for (const auto& [first, end] : {std::pair{0, 9}, std::pair{8, 9}, std::pair{2, 5}}) {
+    EXPECT_EQ(rows->row_samples(first), expected.row_samples(first));
+    const SampleBuffer found = rows->read(first, end), wanted = expected.read(first, end);
+    EXPECT_EQ(found.first_sample, wanted.first_sample);
+    EXPECT_TRUE(same_bits(found.values, wanted.values));
+    EXPECT_EQ(found.data_window, wanted.data_window);
   }
 }
 
@@ -108,6 +140,7 @@ TEST(Merge, RefusesFramesThatDiffer) {
     expect_error(error, ErrorKind::input, {"feature.depth", "--map feature.depth="});
   expect_error(merge_error(frame(1), more), ErrorKind::input, {"\"a.exr\" has no slot"});
   EXPECT_THROW(merge_samples({}), Error);
+  EXPECT_THROW(merge_rows({}), Error);
 }
 
 TEST(Merge, RefusesTheSameSamplesTwice) {
