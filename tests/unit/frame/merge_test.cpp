@@ -152,6 +152,10 @@ TEST(Merge, RefusesTheSameSamplesTwice) {
     expect_error(merge_error(both, *part), ErrorKind::input, {"repeats"});
     expect_error(merge_error(*part, both), ErrorKind::input, {"repeats"});
   }
+  SampleBuffer turned = a;  // in another order of slots
+  std::swap(turned.layout.slots[0], turned.layout.slots[6]);
+  for (std::size_t i = 0; i < a.sample_count(); ++i) std::swap(turned.record(i)[0], turned.record(i)[6]);
+  expect_error(merge_error(a, turned), ErrorKind::input, {"repeats"});
   // One sample in common is chance, no samples at all are harmless.
   SampleBuffer once = b;
   std::copy_n(a.record(0), a.layout.size(), once.record(0));
