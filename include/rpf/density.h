@@ -12,6 +12,11 @@ namespace rpf {
 /// not count. Throws Error(usage) for less than 1 sample, Error(input) where no pixel has two samples.
 Image sample_density(const SampleBuffer& frame, int samples);
 
+/// The same for what a method leaves after filtering, too. `estimate`: features of filter() with
+/// Settings::estimate_error, of which the channel "error" counts. Totals follow the geometric mean of what that and the
+/// noise ask for. Throws Error(input) where the channel is missing or the data windows differ.
+Image sample_density(const SampleBuffer& frame, int samples, const Image& estimate);
+
 /// The relMSE that the plain mean of the samples has, estimated from their variance around each pixel: without what all
 /// of them miss, such as a light that none has found. Pixels without samples are left out. Throws Error(input) where no
 /// pixel has two samples.

@@ -11,17 +11,24 @@
 #include "cli/signals.h"
 #include "rpf/density.h"
 #include "rpf/error.h"
+#include "rpf/io.h"
 #include "rpf/outputs.h"
 
 namespace rpf::cli {
 namespace {
 
 struct Options {
-  std::string input, output;
+  std::string input, output, estimate;
   std::vector<std::string> map;
   std::uint64_t max_memory_mb = 0;  ///< 0: not given
   int samples = 4;
 };
+
+Image density_of(const Options& o, const SampleReadOptions& reading) {
+  if (o.estimate.empty()) return sample_density(read_samples(o.input, reading), o.samples);
+  const Image estimate = read_image(o.estimate, reading.max_memory);
+  return sample_density(read_samples(o.input, reading), o.samples, estimate);
+}
 
 /// Samples as they are read, and some numbers a pixel.
 std::uint64_t bytes_of(const SampleFileInfo& info, std::size_t slots) {
@@ -30,13 +37,17 @@ std::uint64_t bytes_of(const SampleFileInfo& info, std::size_t slots) {
          info.data_window.pixel_count() * numbers * sizeof(double);
 }
 
+std::vector<std::string> inputs_of(const Options& o) {
+  return o.estimate.empty() ? std::vector<std::string>{o.input} : std::vector<std::string>{o.input, o.estimate};
+}
+
 int run(const Options& o) {
   SampleReadOptions read_options = read_options_of(o.map, memory_limit(o.max_memory_mb));
   read_options.slots = std::vector<std::string>{"R", "G", "B", "film.X", "film.Y"};
   const SampleFileInfo info = inspect_samples(o.input, read_options);
   check_need(info, "density", bytes_of(info, read_options.slots->size()), read_options.max_memory);
-  check_outputs({{o.output, OutputKind::image, {"Y"}, info.data_window}}, {o.input});
-  const Image density = sample_density(read_samples(o.input, read_options), o.samples);
+  check_outputs({{o.output, OutputKind::image, {"Y"}, info.data_window}}, inputs_of(o));
+  const Image density = density_of(o, read_options);
   const SignalGuard guard;  // a signal now waits until the file is whole
   write_image(o.output, density);
   const auto [least, most] = std::minmax_element(density.pixels.begin(), density.pixels.end());
@@ -55,6 +66,10 @@ Command add_density_command(CLI::App& app) {
   command->add_option("-o,--output", options->output, "Image to write, one channel of whole numbers")
       ->required()
       ->type_name("FILE.exr");
+  command
+      ->add_option("--error", options->estimate,
+                   "What a method leaves counts too: its estimate, as filtering with --aov FILE --error writes it")
+      ->type_name("FILE");
   add_map_option(*command, options->map);
   add_memory_option(*command, options->max_memory_mb);
   restrict_to(command->add_option("--spp", options->samples, "Samples a pixel of the round, on average"),

@@ -87,6 +87,31 @@ Values wanted_samples(const SampleBuffer& frame) {
   return std::move(wanted);
 }
 
+/// The same for the method's own error e of its picture from n samples a pixel: e^2 falls as v / n, and e is a part of
+/// its mean at least.
+Values wanted_for(const Image& estimate, const Values& counts) {
+  const auto channel = std::find(estimate.channels.begin(), estimate.channels.end(), "error");
+  if (channel == estimate.channels.end())
+    throw Error(ErrorKind::input, "density: the estimate has no channel error; write it with --aov FILE --error");
+  const auto column = static_cast<std::size_t>(channel - estimate.channels.begin());
+  Values wanted;
+  double sum = 0;
+  for (std::size_t p = 0; p < counts.size(); ++p) {
+    const double error = estimate.pixel(p)[column];
+    wanted.push_back(std::isfinite(error) ? std::max(error, 0.0) * std::sqrt(std::max(counts[p], 1.0)) : 0.0);
+    sum += wanted.back();
+  }
+  for (double& value : wanted) value = std::max(value, least_part * sum / static_cast<double>(counts.size()));
+  return wanted;
+}
+
+void check_window(const SampleBuffer& frame, const Image& estimate) {
+  if (estimate.data_window == frame.data_window) return;
+  throw Error(ErrorKind::input,
+              fmt::format("density: the estimate has the data window {}, the samples have {}; equal ones are expected",
+                          text_of(estimate.data_window), text_of(frame.data_window)));
+}
+
 void check_noise_is_told(const SampleBuffer& frame) {
   frame.validate();
   for (std::size_t p = 0; p + 1 < frame.first_sample.size(); ++p)
@@ -140,15 +165,20 @@ std::vector<float> rounded(const Values& each, int width, double sum) {
   return whole;
 }
 
-}  // namespace
-
-Image sample_density(const SampleBuffer& frame, int samples) {
+void check(const SampleBuffer& frame, int samples) {
   check_noise_is_told(frame);
   if (samples < 1)
     throw Error(ErrorKind::usage, fmt::format("density: {} samples a pixel; 1 or more are expected", samples));
-  const Values wanted = wanted_samples(frame);
+}
+
+Values counts_of(const SampleBuffer& frame) {
   Values counts;
-  for (std::size_t p = 0; p < wanted.size(); ++p) counts.push_back(frame.first_sample[p + 1] - frame.first_sample[p]);
+  for (std::size_t p = 0; p + 1 < frame.first_sample.size(); ++p)
+    counts.push_back(frame.first_sample[p + 1] - frame.first_sample[p]);
+  return counts;
+}
+
+Image density_of(const SampleBuffer& frame, const Values& wanted, const Values& counts, int samples) {
   const double sum = static_cast<double>(samples) * static_cast<double>(wanted.size());
   Image density;
   density.data_window = frame.data_window;
@@ -156,6 +186,22 @@ Image sample_density(const SampleBuffer& frame, int samples) {
   density.channels = {"Y"};
   density.pixels = rounded(shared_out(wanted, counts, sum), frame.data_window.width, sum);
   return density;
+}
+
+}  // namespace
+
+Image sample_density(const SampleBuffer& frame, int samples) {
+  check(frame, samples);
+  return density_of(frame, wanted_samples(frame), counts_of(frame), samples);
+}
+
+Image sample_density(const SampleBuffer& frame, int samples, const Image& estimate) {
+  check(frame, samples);
+  check_window(frame, estimate);
+  const Values counts = counts_of(frame), for_method = wanted_for(estimate, counts);
+  Values wanted = wanted_samples(frame);
+  for (std::size_t p = 0; p < wanted.size(); ++p) wanted[p] = std::sqrt(wanted[p] * for_method[p]);
+  return density_of(frame, wanted, counts, samples);
 }
 
 double mean_error(const SampleBuffer& frame) {

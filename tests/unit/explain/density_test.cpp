@@ -73,6 +73,37 @@ TEST(Density, TellsTheErrorOfThePlainMean) {
   EXPECT_NEAR(mean_error(half_noisy()), expected, test::tolerance::estimated_error * expected);
 }
 
+/// The features of a method that leaves an error of 1 in the right half, and of `left` in the left one.
+Image error_of_method(float left) {
+  Image image;
+  image.data_window = image.display_window = {0, 0, 30, 12};
+  image.channels = {"albedo.R", "error"};
+  for (int p = 0; p < 30 * 12; ++p) image.pixels.insert(image.pixels.end(), {7.0F, p % 30 < 15 ? left : 1.0F});
+  return image;
+}
+
+TEST(Density, GoesToWhatAMethodLeaves) {
+  SampleBuffer samples = half_noisy();
+  test::Dice dice(6);  // all noisy alike
+  for (float* record = samples.values.data(); record < samples.values.data() + samples.values.size();
+       record += samples.layout.size())
+    for (const char* slot : {"R", "G", "B"}) record[*samples.layout.find(slot)] = dice();
+  const Image density = sample_density(samples, 12, error_of_method(0.25F));
+  EXPECT_EQ(sum_of(density), 30 * 12 * 12);
+  double right = 0;
+  for (std::size_t p = 0; p < density.pixels.size(); ++p) right += p % 30 < 15 ? 0 : density.pixels[p] + 4;
+  EXPECT_NEAR(right / (30 * 12 * 16), 2 / 3.0, 0.02);  // totals as the root of 0.25 to 1
+}
+
+TEST(Density, RefusesAnEstimateOfSomethingElse) {
+  Image other = error_of_method(1);
+  other.channels = {"albedo.R", "albedo.G"};
+  EXPECT_THROW(sample_density(half_noisy(), 4, other), Error);
+  other = error_of_method(1);
+  other.data_window.x = 1;
+  EXPECT_THROW(sample_density(half_noisy(), 4, other), Error);
+}
+
 TEST(Density, RefusesWhatItCannotTell) {
   EXPECT_THROW(mean_error(defocused_edge({9, 7, 1, 2})), Error);
   EXPECT_THROW(sample_density(defocused_edge({9, 7, 1, 2}), 4), Error);
