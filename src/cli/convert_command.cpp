@@ -1,7 +1,6 @@
 #include "cli/commands.h"
 #include "cli/dropped.h"
 #include "cli/needs.h"
-#include "cli/progress_bar.h"
 #include "cli/sample_options.h"
 #include "rpf/error.h"
 #include "rpf/outputs.h"
@@ -22,10 +21,7 @@ int run(const SampleFileOptions& options) {
   const auto rows = open_sample_rows(input, read_options);
   check_need(file, "converting", write_rows_memory(*rows), read_options.max_memory,
              " or leave slots out with --map SLOT=");
-  with_progress("auto", [&](const Control& control) {
-    write_sample_rows(options.output, *rows, half_slots_of({file}), control);
-  });
-  return tell_written(options.output, rows->frame(), file.sample_count);
+  return write_and_tell(options.output, *rows, half_slots_of({file}));
 }
 
 }  // namespace

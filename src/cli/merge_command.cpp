@@ -1,7 +1,6 @@
 #include "cli/commands.h"
 #include "cli/dropped.h"
 #include "cli/needs.h"
-#include "cli/progress_bar.h"
 #include "cli/sample_options.h"
 #include "rpf/error.h"
 #include "rpf/outputs.h"
@@ -37,10 +36,7 @@ int run(const SampleFileOptions& options) {
   std::vector<RowsPart> parts = open_parts(options, read_options);
   check_need(files.front(), "merging", merging_memory(parts), read_options.max_memory,
              ", merge fewer or leave slots out with --map SLOT=");
-  const auto rows = merge_rows(std::move(parts));
-  with_progress(
-      "auto", [&](const Control& control) { write_sample_rows(options.output, *rows, half_slots_of(files), control); });
-  return tell_written(options.output, rows->frame(), rows->sample_count());
+  return write_and_tell(options.output, *merge_rows(std::move(parts)), half_slots_of(files));
 }
 
 }  // namespace

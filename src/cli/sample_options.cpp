@@ -6,6 +6,7 @@
 #include "cli/filter_options.h"
 #include "cli/numbers.h"
 #include "cli/print.h"
+#include "cli/progress_bar.h"
 #include "cli/signals.h"
 
 namespace rpf::cli {
@@ -39,16 +40,12 @@ std::vector<std::string> half_slots_of(const std::vector<SampleFileInfo>& files)
   return slots;
 }
 
-int tell_written(const std::string& path, const SampleBuffer& frame, std::uint64_t samples) {
-  print("{}: {}x{} pixels, {} samples of {} slots\n", path, frame.data_window.width, frame.data_window.height, samples,
-        frame.layout.size());
+int write_and_tell(const std::string& path, SampleRows& rows, const std::vector<std::string>& half_slots) {
+  with_progress("auto", [&](const Control& control) { write_sample_rows(path, rows, half_slots, control); });
+  const SampleBuffer& frame = rows.frame();
+  print("{}: {}x{} pixels, {} samples of {} slots\n", path, frame.data_window.width, frame.data_window.height,
+        rows.sample_count(), frame.layout.size());
   return received_signal() == 0 ? 0 : 128 + received_signal();
-}
-
-int write_and_tell(const std::string& path, const SampleBuffer& samples, const std::vector<std::string>& half_slots) {
-  const SignalGuard guard;  // a signal now waits until the file is whole
-  write_samples(path, samples, half_slots);
-  return tell_written(path, samples, samples.sample_count());
 }
 
 }  // namespace rpf::cli

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rpf/io.h"
+#include "rpf/rows.h"
 
 namespace rpf::cli {
 
@@ -26,10 +27,7 @@ SampleReadOptions read_options_of(const SampleFileOptions& options);
 /// The slots that are half in every one of these files.
 std::vector<std::string> half_slots_of(const std::vector<SampleFileInfo>& files);
 
-/// Says what was written. Returns the exit code.
-int tell_written(const std::string& path, const SampleBuffer& frame, std::uint64_t samples);
-
-/// Writes the file while signals wait, and says so. Returns the exit code.
-int write_and_tell(const std::string& path, const SampleBuffer& samples, const std::vector<std::string>& half_slots);
+/// Writes a file some rows at a time, with progress, and says so. Returns the exit code. Throws as write_sample_rows().
+int write_and_tell(const std::string& path, SampleRows& rows, const std::vector<std::string>& half_slots);
 
 }  // namespace rpf::cli
