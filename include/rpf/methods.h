@@ -9,13 +9,16 @@
 namespace rpf {
 
 /// The names of the methods, in the order of Method: "rpf", "gaussian", "bilateral", "cross-bilateral", "learned",
-/// "nlm", "gem", "sbf", "axis-aligned".
+/// "nlm", "gem", "sbf", "axis-aligned", "lightfield".
 std::vector<std::string> method_names();
 std::string name_of(Method method);
 
 /// Whether a method filters pixels (algorithm.md, section 9): it looks at means and variances, not at single samples,
 /// and needs two samples in a pixel (all but axis-aligned).
 bool filters_pixels(Method method);
+
+/// Whether a method can be had of the whole frame only, not of rows of it: those that filter pixels, and lightfield.
+bool needs_whole_frame(Method method);
 
 /// The settings of a method: box widths, sigmas and features that did well for it (docs/methods.md); whatever it does
 /// not choose has its default. Throws Error(usage) for an unknown name, naming those there are.

@@ -30,6 +30,7 @@ constexpr NumberRange sigma_color{1e-30, 1e30, "30"};
 constexpr NumberRange sigma_feature{1e-6, 1e6, "0.5"};
 constexpr NumberRange damping{1e-3, 1e3, "0.45"};
 constexpr NumberRange gamma{0.01, 0.5, "0.2"};
+constexpr NumberRange views{1, 65536, "128", true};
 constexpr NumberRange bandwidth{1e-3, 1e3, "2"};
 constexpr NumberRange count{1, 4294967295.0, "1000", true};  ///< of samples: max_samples
 constexpr NumberRange threads{1, 1 << 20, "8", true};

@@ -44,6 +44,10 @@ struct SceneOptions {
   /// picture does not change.
   bool penumbra = false;
 
+  /// Also write what the method lightfield needs: feature.opening and .closing, and where the camera and its lens are,
+  /// as attributes (docs/file-format.md). The picture does not change.
+  bool lightfield = false;
+
   int threads = 0;  ///< 0: available_threads(). Never changes the result.
 };
 
@@ -59,8 +63,9 @@ std::vector<SceneInfo> scenes();
 /// Renders the samples of a scene. Layout: R G B film.X/Y random.lens.U/V random.time random.light.U/V random.bsdf.U/V
 /// feature.N, P, albedo, uv (first hit), feature.N2, P2, albedo2 (second hit), feature.hit, and what SceneOptions ask
 /// for. What a scene does not use (no lens, nothing moves, ...) is 0 in all samples; what a sample does not have (no
-/// hit) is NaN. Metadata: rpf:seed, rpf:renderer, rpf:scene, rpf:sampler. The same options give the same bits. Throws
-/// Error(usage) for an unknown name, naming those there are, or an option that cannot be; Error(cancelled).
+/// hit) is NaN. Metadata: rpf:seed, rpf:renderer, rpf:scene, rpf:sampler, and the camera's where it is asked for. The
+/// same options give the same bits. Throws Error(usage) for an unknown name, naming those there are, or an option that
+/// cannot be; Error(cancelled).
 SampleBuffer render_scene(const std::string& name, const SceneOptions& options, const Control& control = {});
 
 /// The same samples, rendered when their rows are read: a frame larger than memory, for write_sample_rows(). Throws

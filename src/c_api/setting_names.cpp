@@ -132,6 +132,7 @@ const std::map<std::string, Setter>& setters() {
       {"damping", number(&S::damping, ranges::damping)},
       {"window", number(&S::window, ranges::box_width)},
       {"gamma", number(&S::gamma, ranges::gamma)},
+      {"views", number(&S::views, ranges::views)},
       {"bandwidth", number(&S::bandwidth, ranges::bandwidth)},
       {"sigma-feature", number(&S::sigma_feature, ranges::sigma_feature)},
       {"filter-features", flag(&S::filter_features)},

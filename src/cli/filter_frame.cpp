@@ -130,7 +130,7 @@ void open_parts(OpenFrame& frame) {
   if (frame.input.is_image())
     throw Error(ErrorKind::usage,
                 fmt::format("{}: \"{}\" is an image; only samples are read by rows", option, options.input));
-  if (filters_pixels(frame.settings.method))
+  if (needs_whole_frame(frame.settings.method))
     throw Error(ErrorKind::usage, fmt::format("{}: method {} filters the whole frame at once; leave it out", option,
                                               name_of(frame.settings.method)));
   if (frame.settings.estimate_error)
@@ -219,7 +219,7 @@ void print_report(const Report& report, Method method) {
     print_published(report);
   else if (method == Method::learned)
     print_learned(report);
-  else if (filters_pixels(method))
+  else if (needs_whole_frame(method))
     print_pixel_method(report, method);
   else
     print_fixed_weights(report, method);

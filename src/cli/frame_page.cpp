@@ -220,7 +220,7 @@ class FramePage {
   /// A column a pass; methods differ in what they know of one.
   report::Table passes() const {
     const bool published = job_.run->method == Method::rpf,
-               at_once = job_.run->method == Method::learned || filters_pixels(job_.run->method);
+               at_once = job_.run->method == Method::learned || needs_whole_frame(job_.run->method);
     report::Table table{{"means over the pixels"}, {}, 1};
     const auto add = [&](const char* name, const char* format, const auto& value) {
       std::vector<std::string> cells = {name};

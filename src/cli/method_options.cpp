@@ -31,6 +31,7 @@ const Limited limited[] = {
     {{"--damping", "--window"}, {Method::nlm}},
     {{"--gamma"}, {Method::gem}},
     {{"--bandwidth"}, {Method::axis_aligned}},
+    {{"--views"}, {Method::lightfield}},
 };
 
 bool knows(const Limited& group, Method method) {
@@ -68,8 +69,8 @@ void add_method_options(CLI::App& app, FilterOptions& o) {
          "distance on the film; bilateral: and from the color; cross-bilateral: and from the features. gaussian and "
          "bilateral also filter any image. Of pixels: nlm: from the likeness of patches; gem: Gaussians, each as wide "
          "as bias and variance allow; sbf: cross-bilateral, each as wide as Stein's risk says; axis-aligned: soft "
-         "shadows, "
-         "as wide as their occluders allow")
+         "shadows, as wide as their occluders allow. lightfield: samples seen again from other places of the lens at "
+         "other times")
       ->check(CLI::IsMember(method_names()))
       ->default_str("learned; rpf where an option asks for it");
   restrict_to(app.add_option("--sigma-color", o.sigma_color,
@@ -90,6 +91,10 @@ void add_method_options(CLI::App& app, FilterOptions& o) {
       ->capture_default_str();
   restrict_to(app.add_option("--bandwidth", o.settings.bandwidth, "mu of axis-aligned: larger makes filters narrower"),
               ranges::bandwidth)
+      ->capture_default_str();
+  restrict_to(
+      app.add_option("--views", o.settings.views, "Places of lens and time that lightfield sees each pixel from"),
+      ranges::views)
       ->capture_default_str();
   app.parse_complete_callback([&app, &o] { check_given_options(app, method_settings(o.method).method); });
 }

@@ -50,9 +50,10 @@ std::string text_of(const Settings& s) {
                   fmt::join(s.box_widths, ","), s.samples_factor.value_or(none), s.max_samples, s.noise, s.bins,
                   list(s.random), list(s.features), s.drop_uninformative, s.seed, s.filter_features);
   if (s.estimate_error) text += " error";
-  text += fmt::format(" {} {} {} {} {} {} {} {} {} {} {} {} {} {}", s.alpha_factor, s.position_scale, s.redraws,
+  text += fmt::format(" {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", s.alpha_factor, s.position_scale, s.redraws,
                       s.reject_second_hit, s.bias_correction, s.clamp_negative, s.clamp_infinite, s.sigma_color,
-                      s.sigma_feature, s.damping, s.window, s.gamma, s.bandwidth, s.crop ? text_of(*s.crop) : "whole");
+                      s.sigma_feature, s.damping, s.window, s.gamma, s.bandwidth, s.views,
+                      s.crop ? text_of(*s.crop) : "whole");
   return text;
 }
 

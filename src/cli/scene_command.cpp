@@ -136,6 +136,10 @@ void add_options(CLI::App& command, Options& o) {
       .add_flag("--penumbra", o.scene.penumbra,
                 "Also write how wide shadows' edges are, which rpf --method axis-aligned needs")
       ->excludes(reference);
+  command
+      .add_flag("--lightfield", o.scene.lightfield,
+                "Also write how surfaces move and where camera and lens are, which rpf --method lightfield needs")
+      ->excludes(reference);
 }
 
 void add_world_options(CLI::App& command, Options& o) {

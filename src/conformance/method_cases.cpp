@@ -14,10 +14,13 @@ class MethodCases {
   MethodCases(CaseList& list, std::string method) : list_(list), method_(std::move(method)) {}
 
   ConformanceCase basic(int samples = 4) const {
-    const bool of_shadows = method_settings(method_).method == Method::axis_aligned;
-    ConformanceCase c = CaseList::basic(of_shadows ? "soft-shadow" : "dof", samples);
+    const Method method = method_settings(method_).method;
+    const bool of_shadows = method == Method::axis_aligned, of_light = method == Method::lightfield;
+    ConformanceCase c = CaseList::basic(of_shadows ? "soft-shadow" : of_light ? "combined" : "dof", samples);
     c.options.penumbra = of_shadows;
+    c.options.lightfield = of_light;
     c.settings = method_settings(method_);
+    c.settings.views = 9;
     c.settings.box_widths = {9, 5};
     return c;
   }
@@ -130,6 +133,22 @@ void add_shadows(MethodCases& list) {
   list.add("1spp", list.basic(1));
 }
 
+void add_light_field(MethodCases& list) {
+  for (const int views : {1, 130}) list.add(fmt::format("views/{}", views), [&](Settings& s) { s.views = views; });
+  for (const char* scene : {"dof", "motion", "dof-edge"}) {
+    ConformanceCase c = list.basic();
+    c.scene = scene;
+    list.add(fmt::format("scene/{}", scene), c);
+  }
+  for (const char* slot : {"feature.P.X", "feature.P.Z", "feature.opening.Y", "feature.closing.Z", "random.time"})
+    for (const float value : {std::numeric_limits<float>::quiet_NaN(), -1e3F, 1e30F}) {
+      ConformanceCase c = list.basic();
+      c.change = poison(slot, value, 3);
+      list.add(fmt::format("extreme/{}{:g}", slot, value), c);
+    }
+  for (const int samples : {1, 64}) list.add(count_name(samples), list.basic(samples));
+}
+
 void add_common_settings(MethodCases& list) {
   list.add("carried/features", [](Settings& s) { s.filter_features = true; });
   list.add("crop", [](Settings& s) { s.crop = Window{3, 5, 11, 7}; });
@@ -142,13 +161,14 @@ void add_methods(CaseList& all) {
     const Method method = method_settings(name).method;
     if (method == Method::rpf || method == Method::learned) continue;  // those have cases of their own
     MethodCases list(all, name);
-    if (filters_pixels(method)) {
+    if (needs_whole_frame(method)) {
       add_pixel_frames(list);
       add_common_settings(list);
       if (method == Method::nlm) add_windows_of_patches(list);
       if (method == Method::gem) add_gammas(list);
       if (method == Method::sbf) add_feature_groups(list);
       if (method == Method::axis_aligned) add_shadows(list);
+      if (method == Method::lightfield) add_light_field(list);
       continue;
     }
     add_method_frames(list);

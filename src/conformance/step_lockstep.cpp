@@ -23,4 +23,18 @@ Comparison compare_steps(const ConformanceCase& c, SampleBuffer samples, const s
   return comparison;
 }
 
+Comparison compare_views(const ConformanceCase& c, SampleBuffer samples, const std::string& device_name, int threads) {
+  const LightField light = make_light_field(prepare(std::move(samples), c.settings), c.settings);
+  const auto silent = [](double /*part*/) {};
+  CpuBackend reference(threads);
+  OpenClBackend device({device_name, threads, 0});
+  Comparison comparison;
+  LightField first = light;
+  first.views.resize(1);
+  comparison.at(0, "whole frame");
+  comparison.values("first view", reference.see_views(first, silent), device.see_views(first, silent));
+  comparison.values("sums", reference.see_views(light, silent), device.see_views(light, silent));
+  return comparison;
+}
+
 }  // namespace rpf

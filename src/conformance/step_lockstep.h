@@ -1,4 +1,4 @@
-// A method that filters pixels, on the reference and on a device.
+// Methods of the whole frame at once, on the reference and on a device.
 #pragma once
 
 #include "conformance/cases.h"
@@ -6,7 +6,10 @@
 
 namespace rpf {
 
-/// Compares all planes that the steps leave, and the picture.
+/// Of a method that filters pixels: compares all planes that the steps leave, and the picture.
 Comparison compare_steps(const ConformanceCase& c, SampleBuffer samples, const std::string& device, int threads);
+
+/// Of the light field: compares what the first view sees, and what all see together.
+Comparison compare_views(const ConformanceCase& c, SampleBuffer samples, const std::string& device, int threads);
 
 }  // namespace rpf

@@ -30,6 +30,7 @@ class CpuBackend : public Backend {
   std::vector<float> run_steps(const PixelPlan& plan, std::vector<float> planes,
                                const EstimateProgress& progress) override;
   std::uint64_t step_bytes(const PixelPlan& plan) const override;
+  std::vector<float> see_views(const LightField& light, const EstimateProgress& progress) override;
 
   struct Workspace;
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "frame/camera_facts.h"
 #include "frame/variables.h"
 #include "rpf/image.h"
 
@@ -23,6 +24,7 @@ struct FrameFacts {
   float position_diagonal = 0;                ///< of the box of all first-hit world positions
   float radiance_scale = 1;                   ///< what the color was multiplied with
   std::vector<FeatureSpread> feature_spread;  ///< [feature], where the method asks for it
+  CameraFacts camera;                         ///< where the method asks for it
   std::size_t carried = 3;
   Window crop;  ///< frame coordinates; the pixels that are wanted in the end
 };

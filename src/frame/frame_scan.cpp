@@ -33,6 +33,8 @@ FrameScan::FrameScan(const SampleBuffer& frame, const Settings& settings)
       high_(low_.size(), -std::numeric_limits<double>::infinity()) {
   for (const auto* slots : {&clean_.selection.random, &clean_.selection.features})
     for (const std::string& slot : *slots) channels_.push_back({slot, source_of(frame.layout, slot)});
+  // The light field needs where surfaces are, not only how they differ.
+  for (Channel& channel : channels_) channel.varies = settings.method == Method::lightfield;
 }
 
 void FrameScan::add(SampleBuffer& rows) {

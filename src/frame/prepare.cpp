@@ -46,7 +46,7 @@ PreparedFrame prepare(SampleBuffer samples, const Settings& settings) {
   scan.add(samples);
   PreparedFrame result = prepare_rows(std::move(samples), frame, scan.findings(), settings);
   if (settings.method == Method::cross_bilateral || settings.method == Method::sbf ||
-      settings.method == Method::axis_aligned)
+      settings.method == Method::axis_aligned || settings.method == Method::lightfield)
     result.facts.feature_spread = spread_of_features(result.frame, result.facts.variables);
   return result;
 }
@@ -58,6 +58,8 @@ PreparedFrame prepare_rows(SampleBuffer rows, const SampleBuffer& whole, const F
   take_rows(clean, std::move(rows), found.cleaned, settings.method);
   PreparedFrame& result = clean.prepared;
   result.facts.position_diagonal = found.position_diagonal;
+  if (settings.method == Method::lightfield)
+    result.facts.camera = camera_of(whole.metadata, whole.data_window, whole.display_window);
   const std::vector<Source> variables = plan_records(clean, found, result);
   result.colors = carried_values(clean, true);
   Frame& frame = result.frame;

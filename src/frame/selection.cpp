@@ -105,16 +105,34 @@ std::vector<std::string> select_known(const std::vector<std::string>& slots,
   return picked;
 }
 
+/// Throws where one is not there; `option`: with which rpf scene writes them.
+void require_slots(const std::vector<std::string>& slots, const std::vector<std::string>& needed, const char* method,
+                   const char* option) {
+  for (const std::string& slot : needed)
+    if (!contains(slots, slot))
+      throw Error(ErrorKind::input,
+                  fmt::format("--method {}: the samples have no {}, which docs/file-format.md describes; have "
+                              "the renderer write it (rpf scene does with {}), or choose another --method",
+                              method, slot, option));
+}
+
+/// The light field needs to know where surfaces are and, where time is a random parameter, how they move.
+Selection select_trajectories(const std::vector<std::string>& random, const std::vector<std::string>& features) {
+  Groups groups = {"P"};
+  const bool has_time = contains(random, "random.time");
+  if (has_time) groups.insert(groups.end(), {"opening", "closing"});
+  std::vector<std::string> needed;
+  for (const std::string& group : groups)
+    for (const char* axis : {"X", "Y", "Z"}) needed.push_back(fmt::format("feature.{}.{}", group, axis));
+  require_slots(features, needed, "lightfield", "--lightfield");
+  return {has_time ? Groups{"random.time"} : Groups{}, needed};
+}
+
 /// Shadows need to know where surfaces are and what stands before the light.
 std::vector<std::string> select_shadow_features(const std::vector<std::string>& slots, const Settings& settings) {
-  for (const char* slot :
-       {"feature.P.X", "feature.P.Y", "feature.P.Z", "feature.penumbra.slope", "feature.penumbra.width"})
-    if (!contains(slots, slot))
-      throw Error(
-          ErrorKind::input,
-          fmt::format("--method axis-aligned: the samples have no {}, which docs/file-format.md describes; have "
-                      "the renderer write it (rpf scene does with --penumbra), or choose another --method",
-                      slot));
+  require_slots(slots,
+                {"feature.P.X", "feature.P.Y", "feature.P.Z", "feature.penumbra.slope", "feature.penumbra.width"},
+                "axis-aligned", "--penumbra");
   std::vector<std::string> picked =
       select_known(slots, settings.features, {"the axis-aligned filter", "feature", shadow_features});
   for (const char* group : {"P", "penumbra"})
@@ -137,6 +155,7 @@ Selection select_channels(const SampleLayout& layout, const Settings& settings) 
     return {select_known(random, settings.random, {"the learned estimator", "random parameter", learned_random}),
             select_known(features, settings.features, {"the learned estimator", "feature", learned_features})};
   if (settings.method == Method::axis_aligned) return {{}, select_shadow_features(features, settings)};
+  if (settings.method == Method::lightfield) return select_trajectories(random, features);
   if (settings.method == Method::rpf) selection.random = select_random(random, settings);
   if (contains(settings.features.value_or(Groups{}), inside_pixel))
     throw Error(ErrorKind::usage,

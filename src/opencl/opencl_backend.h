@@ -47,6 +47,8 @@ class OpenClBackend : public Backend {
   std::vector<float> run_steps(const PixelPlan& plan, std::vector<float> planes,
                                const EstimateProgress& progress) override;
   std::uint64_t step_bytes(const PixelPlan& plan) const override;
+  void get_ready_views(const std::function<void()>& check) override;
+  std::vector<float> see_views(const LightField& light, const EstimateProgress& progress) override;
 
  private:
   /// What stays on the device for a pass: the plan's tables, or the coordinates of fixed weights.

@@ -22,14 +22,15 @@ constexpr NamedMethod all_methods[] = {{"rpf", Method::rpf},
                                        {"nlm", Method::nlm},
                                        {"gem", Method::gem},
                                        {"sbf", Method::sbf},
-                                       {"axis-aligned", Method::axis_aligned}};
+                                       {"axis-aligned", Method::axis_aligned},
+                                       {"lightfield", Method::lightfield}};
 
 Settings settings_of(Method method) {
   Settings s;
   s.method = method;
   if (method == Method::rpf || method == Method::learned) return s;
   if (method == Method::sbf) s.features = std::vector<std::string>{"first"};
-  if (filters_pixels(method)) return s;
+  if (needs_whole_frame(method)) return s;
   s.box_widths = {method == Method::cross_bilateral ? 9 : 5};
   s.features = std::vector<std::string>{"first"};
   return s;
@@ -48,6 +49,8 @@ std::string name_of(Method method) { return all_methods[static_cast<std::size_t>
 bool filters_pixels(Method method) {
   return method == Method::nlm || method == Method::gem || method == Method::sbf || method == Method::axis_aligned;
 }
+
+bool needs_whole_frame(Method method) { return filters_pixels(method) || method == Method::lightfield; }
 
 Settings method_settings(const std::string& name) {
   for (const NamedMethod& m : all_methods)

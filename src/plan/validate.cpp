@@ -50,6 +50,7 @@ void validate(const Settings& s) {
   require("--window", s.window, ranges::box_width);
   require("--gamma", s.gamma, ranges::gamma);
   require("--bandwidth", s.bandwidth, ranges::bandwidth);
+  require("--views", s.views, ranges::views);
   if (s.threads != 0) require("--threads", s.threads, ranges::threads);  // 0: all cores
 }
 

@@ -30,7 +30,7 @@ struct ValueRange {
   float least = 0, most = 0;
 };
 
-/// Of a carried channel over all samples.
+/// Of a carried channel over all samples. Rounding must not leave it: a float has no room above it.
 ValueRange range_of(const PreparedFrame& prepared, std::size_t channel) {
   ValueRange range;
   for (std::size_t i = channel; i < prepared.colors.size(); i += prepared.facts.carried) {
@@ -55,7 +55,9 @@ class Run {
     }
     prepared_ = prepare(std::move(samples), settings);
     if (settings.method == Method::rpf && settings.drop_uninformative) drop_uninformative(prepared_, settings);
-    if (filters_pixels(settings.method))
+    if (settings.method == Method::lightfield)
+      light_ = make_light_field(prepared_, settings);
+    else if (filters_pixels(settings.method))
       pixel_plan_ = make_pixel_plan(prepared_.facts, settings);
     else
       plan_ = make_plan(prepared_.facts, settings);
@@ -93,6 +95,7 @@ class Run {
   Result finish(const PassObserver& before_pass) {
     if (settings_.method == Method::learned) return estimate();
     if (passes_) return finish_streamed();
+    if (settings_.method == Method::lightfield) return see_views();
     return filters_pixels(settings_.method) ? filter_pixels() : run_passes(before_pass);
   }
 
@@ -197,18 +200,37 @@ class Run {
     const std::vector<float> planes =
         backend_->run_steps(pixel_plan_, pixel_planes(prepared_, pixel_plan_.inputs, pixel_plan_.planes),
                             [&](double part) { meter.add_part(part); });
-    const std::size_t carried = prepared_.facts.carried, count = pixel_plan_.pixels();
-    const float* first = planes.data() + pixel_plan_.result * count;
+    Result result;
+    describe_at_once(result, pixels_of(planes.data() + pixel_plan_.result * pixel_plan_.pixels()), plain_energy, meter);
+    return result;
+  }
+
+  /// The light field, the whole frame whatever the crop.
+  Result see_views() {
+    ProgressMeter meter(control_);
+    const double plain_energy = energy_of_means(prepared_.frame, prepared_.facts.crop);
+    get_ready_views(backend_, settings_, meter);
+    const std::vector<float> sums = backend_->see_views(light_, [&](double part) { meter.add_part(part); });
+    const std::size_t count = light_.pixels();
+    const float* seen = sums.data() + light_.field.carried * count;
+    for (std::size_t i = 0; i < light_.means.size(); ++i)
+      light_.means[i] = kernel::rpf_mean_of_views(light_.means[i], sums[i], seen[i % count]);
+    Result result;
+    describe_at_once(result, pixels_of(light_.means.data()), plain_energy, meter);
+    return result;
+  }
+
+  /// Of planes, one for each carried channel; 0 where there are no samples.
+  Pixels pixels_of(const float* planes) const {
+    const std::size_t carried = prepared_.facts.carried, count = prepared_.frame.first_sample.size() - 1;
     Pixels pixels(count * carried);
     for (std::size_t c = 0; c < carried; ++c) {
-      const ValueRange range = range_of(prepared_, c);  // rounding must not leave it: a float has no room above it
+      const ValueRange range = range_of(prepared_, c);
       for (std::size_t p = 0; p < count; ++p)
         pixels[p * carried + c] =
-            prepared_.frame.samples(p) > 0 ? std::clamp(first[c * count + p], range.least, range.most) : 0;
+            prepared_.frame.samples(p) > 0 ? std::clamp(planes[c * count + p], range.least, range.most) : 0;
     }
-    Result result;
-    describe_at_once(result, pixels, plain_energy, meter);
-    return result;
+    return pixels;
   }
 
   /// The report of what has no passes.
@@ -258,6 +280,7 @@ class Run {
   Plan plan_;
   EstimatePlan estimate_plan_;
   PixelPlan pixel_plan_;
+  LightField light_;
   ObservedFindings found_;
   FrameFindings frame_found_;
   // Where samples are read when they are needed:

@@ -29,6 +29,7 @@ SampleBuffer half_of(const SampleBuffer& samples, std::uint32_t first) {
   half.data_window = samples.data_window;
   half.display_window = samples.display_window;
   half.layout = samples.layout;
+  half.metadata = samples.metadata;
   half.half_slots = samples.half_slots;
   half.first_sample = {0};
   half.values.reserve((samples.values.size() / samples.layout.size() + samples.data_window.pixel_count()) / 2 *

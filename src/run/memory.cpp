@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "frame/selection.h"
+#include "plan/view_cells.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
 #include "rpf/io.h"
@@ -38,12 +39,24 @@ std::uint64_t pixel_method_need(const FrameSize& size, const SampleLayout& layou
          make_backend(settings)->step_bytes(plan);
 }
 
+/// Tracks, ends and colors of samples, their places by number and by cell; means and sums of pixels; cells, twice.
+std::uint64_t light_field_need(const FrameSize& size, const SampleLayout& layout, std::uint64_t room,
+                               const FrameFacts& facts) {
+  const int width = std::max(size.width, 1), height = static_cast<int>(size.pixels / static_cast<unsigned>(width));
+  const std::uint64_t floats = sample_floats(layout.size(), room, facts.variables.count(), facts.carried);
+  const std::uint64_t of_views = RPF_TRACK + RPF_ENDS + 2 * RPF_PLACE + 2 + facts.carried;
+  return size.samples * word * (floats + of_views) +
+         size.pixels * (pixel_bytes(facts.carried) + word * (2 * facts.carried + 1)) +
+         2 * word * cells_of(light_field_shape(width, std::max(height, 1), facts.carried, size.samples));
+}
+
 /// `room`: columns that the buffer of values can hold.
 std::uint64_t memory_need(const FrameSize& size, const SampleLayout& layout, std::uint64_t room,
                           const Settings& settings) {
   if (settings.method == Method::learned)
     return estimate_bands(size, layout, room, settings, *make_backend(settings)).bytes;
   const FrameFacts facts = largest_facts(size, layout, settings);
+  if (settings.method == Method::lightfield) return light_field_need(size, layout, room, facts);
   if (filters_pixels(settings.method)) return pixel_method_need(size, layout, room, facts, settings);
   Settings without_crop = settings;
   without_crop.crop.reset();

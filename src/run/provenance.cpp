@@ -61,6 +61,13 @@ void describe_fixed_weights(const Settings& settings, Metadata& m) {
       fmt::format("clamp-negative={} clamp-infinite={}", settings.clamp_negative, settings.clamp_infinite);
 }
 
+/// What the light field was told.
+void describe_light_field(const Settings& settings, Metadata& m) {
+  m["rpf:views"] = std::int32_t{settings.views};
+  m["rpf:choices"] =
+      fmt::format("clamp-negative={} clamp-infinite={}", settings.clamp_negative, settings.clamp_infinite);
+}
+
 /// What a method that filters pixels was told.
 void describe_pixel_method(const Settings& settings, Metadata& m) {
   if (settings.method == Method::nlm) {
@@ -87,6 +94,8 @@ Metadata provenance(Metadata input, const Settings& settings, const Report& repo
     describe_rpf(settings, report, m);
   else if (settings.method == Method::learned)
     describe_learned(settings, report, m);
+  else if (settings.method == Method::lightfield)
+    describe_light_field(settings, m);
   else if (filters_pixels(settings.method))
     describe_pixel_method(settings, m);
   else

@@ -130,7 +130,7 @@ FrameFindings find_frame(SampleRows& rows, const Settings& settings, ProgressMet
 
 ScannedRows scan_rows(SampleRows& rows, Settings settings, const Control& control, const RowWalk& walk) {
   validate(settings);
-  if (filters_pixels(settings.method))
+  if (needs_whole_frame(settings.method))
     throw Error(ErrorKind::usage,
                 fmt::format("method {} filters the whole frame at once, so rows of it cannot be "
                             "filtered by themselves; filter the frame, with --crop if a part is enough",

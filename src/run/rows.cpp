@@ -104,7 +104,7 @@ Result filter_rows(SampleRows& rows, const Settings& settings, const std::string
 }
 
 bool can_stream(const Settings& settings) {
-  return !filters_pixels(settings.method) && !settings.estimate_error &&
+  return !needs_whole_frame(settings.method) && !settings.estimate_error &&
          !(settings.method == Method::rpf && settings.drop_uninformative);
 }
 

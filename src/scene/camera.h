@@ -11,6 +11,11 @@ struct Camera {
   float focus = 1;         ///< distance along the axis at which points are sharp, scene units
   float lens_radius = 0;   ///< scene units; 0: pinhole
 
+  /// Its axes in the world.
+  struct Axes {
+    Vec3 right, up, forward;
+  };
+  Axes axes() const;
   /// The ray through a film position (pixels) of a frame of that size.
   Ray ray(float film_x, float film_y, int width, int height, Pair lens, float time) const;
 };

@@ -28,7 +28,12 @@ Shading shading_of(const Hit& hit, const Ray& ray) {
   return s;
 }
 
-SurfacePoint features_of(const Shading& s) { return {true, s.hit.position, s.hit.normal, s.color, s.hit.uv}; }
+SurfacePoint features_of(const Shading& s) {
+  const auto at = [&](float time) {
+    return s.hit.solid ? s.hit.solid->carried(s.hit.position, s.time, time) : s.hit.position;
+  };
+  return {true, s.hit.position, s.hit.normal, s.color, s.hit.uv, at(0), at(1)};
+}
 
 /// Density of choosing this point of a light, a steradian as seen from `distance` along `direction`.
 float light_density(const World& world, int light, const Vec3& direction, float distance) {

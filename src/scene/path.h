@@ -11,6 +11,8 @@ struct SurfacePoint {
   bool hit = false;
   Vec3 position, normal, albedo;
   Pair uv;
+  Vec3 opening = {},
+       closing = {};  ///< where this point of the surface was when the shutter opened, and will be when it closes
 };
 
 struct Path {

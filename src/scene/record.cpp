@@ -1,5 +1,7 @@
 #include "scene/record.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 namespace rpf::scene {
@@ -34,9 +36,9 @@ Vec3 world_position(const Vec3& p, const SceneOptions& options) {
 
 SurfacePoint or_missing(const SurfacePoint& point, const SceneOptions& options) {
   constexpr Vec3 nothing = {missing, missing, missing};
-  if (!point.hit) return {false, nothing, nothing, nothing, {missing, missing}};
+  if (!point.hit) return {false, nothing, nothing, nothing, {missing, missing}, nothing, nothing};
   SurfacePoint placed = point;
-  placed.position = world_position(point.position, options);
+  for (Vec3* p : {&placed.position, &placed.opening, &placed.closing}) *p = world_position(*p, options);
   return placed;
 }
 
@@ -82,6 +84,9 @@ SampleLayout common_layout() {
 SampleLayout sample_layout(const SceneOptions& options) {
   SampleLayout layout = common_layout();
   if (options.penumbra) layout.slots.insert(layout.slots.end(), {"feature.penumbra.slope", "feature.penumbra.width"});
+  for (const char* group : {"opening", "closing"})
+    for (const char* axis : {"X", "Y", "Z"})
+      if (options.lightfield) layout.slots.push_back(fmt::format("feature.{}.{}", group, axis));
   return layout;
 }
 
@@ -102,9 +107,13 @@ void write_record(const RenderedSample& sample, const Usage& usage, const SceneO
   pen.put(second.position);
   pen.put(second.albedo);
   pen.put(sample.path.first.hit ? 1.0F : 0.0F);
-  if (!options.penumbra) return;
-  pen.put(first.hit ? sample.penumbra.slope : missing);
-  pen.put(first.hit ? options.world_scale * sample.penumbra.width : missing);
+  if (options.penumbra) {
+    pen.put(first.hit ? sample.penumbra.slope : missing);
+    pen.put(first.hit ? options.world_scale * sample.penumbra.width : missing);
+  }
+  if (!options.lightfield) return;
+  pen.put(first.opening);
+  pen.put(first.closing);
 }
 
 }  // namespace rpf::scene

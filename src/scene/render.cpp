@@ -7,6 +7,7 @@
 #include "rpf/samples.h"
 #include "rpf/scene.h"
 #include "rpf/version.h"
+#include "scene/camera_attributes.h"
 #include "scene/counts.h"
 #include "scene/renderer.h"
 #include "scene/workforce.h"
@@ -79,6 +80,7 @@ class SceneRows : public SampleRows {
     frame_.data_window = frame_.display_window = {0, 0, options.width, options.height};
     frame_.layout = sample_layout(options_);
     frame_.metadata = metadata_of(name, options_);
+    if (options_.lightfield) describe_camera(renderer_.camera(), options_, frame_.metadata);
   }
 
   const SampleBuffer& frame() const override { return frame_; }

@@ -22,6 +22,7 @@ class Renderer {
 
   RenderedSample render(std::size_t pixel, const PixelSampler& sampler, std::uint32_t number) const;
   const Usage& usage() const { return usage_; }
+  const Camera& camera() const { return world_.camera; }
 
  private:
   World world_;

@@ -14,7 +14,7 @@ Vec3 next_vector(Stream& random) {
 SurfacePoint noise_point(Stream& random) {
   SurfacePoint point;
   point.hit = true;
-  point.position = next_vector(random);
+  point.position = point.opening = point.closing = next_vector(random);
   point.normal = next_vector(random);
   point.albedo = next_vector(random);
   const float u = random.next();
@@ -38,7 +38,8 @@ Path two_values_path(const Draw& draw, float film_x, float film_y) {
   const float albedo = coin(random.next());
   Path path;
   path.radiance = {coin(draw.lens.u), coin(draw.time), albedo};
-  path.first = {true, {film_x / 64, film_y / 64, 0}, {0, 0, 1}, {albedo, albedo, albedo}, {0, 0}};
+  const Vec3 place = {film_x / 64, film_y / 64, 0};
+  path.first = {true, place, {0, 0, 1}, {albedo, albedo, albedo}, {0, 0}, place, place};
   return path;
 }
 

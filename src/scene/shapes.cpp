@@ -73,6 +73,11 @@ std::optional<float> Solid::intersect(const Ray& ray, float nearest, float farth
   return std::nullopt;
 }
 
+Vec3 Solid::carried(const Vec3& point, float from, float to) const {
+  if (!moves()) return point;
+  return center_at(to) + rotate(to_local(point - center_at(from), from), axis, angle + turn * to);
+}
+
 Vertex Solid::surface(const Vec3& point, float time) const {
   const Vec3 local = to_local(point - center_at(time), time);
   Vertex vertex = kind == Kind::sphere ? on_sphere(local) : on_box(local, half_size);

@@ -56,6 +56,8 @@ struct Solid {
   std::optional<float> intersect(const Ray& ray, float nearest, float farthest) const;
   /// Normal (outwards) and texture coordinates of a point on the surface.
   Vertex surface(const Vec3& point, float time) const;
+  /// Where a point that the solid has at one time is at another.
+  Vec3 carried(const Vec3& point, float from, float to) const;
 
  private:
   Vec3 to_local(const Vec3& v, float time) const { return rotate(v, axis, -(angle + turn * time)); }

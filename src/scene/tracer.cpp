@@ -147,7 +147,7 @@ std::optional<Hit> Tracer::nearest(const Ray& ray) const {
   }
   const Solid& solid = world_.solids[found.primID];
   const Vertex v = solid.surface(ray.origin + query.ray.tfar * ray.direction, ray.time);
-  return Hit{v.position, v.normal, v.uv, &world_.materials[solid.material], -1, query.ray.tfar};
+  return Hit{v.position, v.normal, v.uv, &world_.materials[solid.material], -1, query.ray.tfar, &solid};
 }
 
 bool Tracer::blocked(const Ray& ray, float distance) const {

@@ -13,8 +13,9 @@ struct Hit {
   Vec3 normal;  ///< as modeled; it may point away from the ray's origin
   Pair uv;
   const Material* material = nullptr;
-  int light = -1;      ///< number of the area light that was hit, -1: none
-  float distance = 0;  ///< from the ray's origin
+  int light = -1;                ///< number of the area light that was hit, -1: none
+  float distance = 0;            ///< from the ray's origin
+  const Solid* solid = nullptr;  ///< that was hit; null: something that stands still
 };
 
 /// Answers are the same from any number of threads at once. Keeps a pointer to the world.

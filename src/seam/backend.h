@@ -10,6 +10,7 @@
 #include "frame/frame.h"
 #include "learned/estimate_plan.h"
 #include "pass.h"
+#include "plan/light_field.h"
 #include "plan/pixel_plan.h"
 #include "plan/plan.h"
 #include "seam/trace.h"
@@ -77,6 +78,14 @@ class Backend {
                                        const EstimateProgress& progress) = 0;
   /// Bytes that run_steps() takes beside the planes.
   virtual std::uint64_t step_bytes(const PixelPlan& plan) const = 0;
+
+  // The light field, in place of all of the above.
+
+  /// see_views() compiles nothing afterwards; `check` is called now and then. Throws Error(device).
+  virtual void get_ready_views(const std::function<void()>& /*check*/) {}
+  /// What all views see, LightField::sums(): [carried][pixel] the sum of how far it is off from the pixel's mean, then
+  /// [pixel] the number of views that see something. Calls `progress` as run_steps() does.
+  virtual std::vector<float> see_views(const LightField& light, const EstimateProgress& progress) = 0;
 
  protected:
   std::function<void()> check_;  ///< empty: nobody watches

@@ -53,11 +53,11 @@ class MessagesTest(CommandCase):
               "--alpha-factor": ("0", "1000000"), "--position-scale": ("1e-06", "1000000"), "--seed": ("0", "4294967295"),
               "--sigma-color": ("1e-30", "1e+30"), "--sigma-feature": ("1e-06", "1000000"), "--boxes": ("1", "255"),
               "--damping": ("0.001", "1000"), "--window": ("1", "255"), "--gamma": ("0.01", "0.5"),
-              "--bandwidth": ("0.001", "1000")}
+              "--bandwidth": ("0.001", "1000"), "--views": ("1", "65536")}
 
     def test_every_number_of_the_filter(self):
         for option, (least, most) in self.RANGES.items():
-            known_by = {"--damping": "nlm", "--window": "nlm", "--gamma": "gem", "--bandwidth": "axis-aligned"}.get(option, "cross-bilateral" if "sigma" in option else "")
+            known_by = {"--damping": "nlm", "--window": "nlm", "--gamma": "gem", "--bandwidth": "axis-aligned", "--views": "lightfield"}.get(option, "cross-bilateral" if "sigma" in option else "")
             method = ["--method", known_by] if known_by else []
             for value in ("-1", "1e40", "all", "nan", "inf", "0x8", "1,5", "9" * 300):
                 if option == "--boxes" and value == "1,5":

@@ -115,9 +115,9 @@ class PartsTest(CommandCase):
         self.assertFalse((self.folder / "out.exr").exists())
 
     def test_methods_that_need_the_whole_frame_refuse_parts(self):
-        for method in ("nlm", "gem", "sbf", "axis-aligned"):
+        for method in ("nlm", "gem", "sbf", "axis-aligned", "lightfield"):
             self.expect(run(self.frame, "-o", self.folder / "out.exr", "--method", method, "--rows", "1/2"), 2, "the whole frame at once")
-            if method != "axis-aligned":  # which refuses this frame before, for want of what stands before the light
+            if method not in ("axis-aligned", "lightfield"):  # which refuse this frame before, for want of what they need of it
                 self.expect(run("facts", self.frame, "-o", self.facts, "--method", method), 2, "the whole frame at once")
 
     def test_rows_outside_the_frame_are_refused(self):

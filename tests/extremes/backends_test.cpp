@@ -38,6 +38,28 @@ void cast_extreme_shadows(SampleBuffer& samples) {
   }
 }
 
+/// A camera that looks along z from before the frame, and surfaces that move anywhere, some to where nothing can be.
+void move_extremely(SampleBuffer& samples) {
+  for (const char* group : {"feature.opening.", "feature.closing."})
+    for (const char* axis : {"X", "Y", "Z"}) {
+      add_channel(samples, std::string(group) + axis, 0);
+      for (std::size_t i = 0; i < samples.sample_count(); ++i)
+        value_of(samples, i, std::string(group) + axis) =
+            value_of(samples, i, std::string("feature.P.") + axis) + static_cast<float>(i % 5) - 2;
+    }
+  for (int bad = 0; bad < 20; ++bad) {
+    const std::string slot = *rc::gen::element<std::string>("feature.P.X", "feature.P.Z", "feature.opening.Y",
+                                                            "feature.closing.Z", "random.time");
+    value_of(samples, any_sample(samples), slot) = *rc::gen::element(-1.0F, infinity, NAN, 1e-42F, 1e15F, 1e30F);
+  }
+  const float away = *rc::gen::element(0.0F, 5.0F, 1e6F);
+  samples.metadata["worldToCamera"] =
+      std::vector<float>{1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, -far_away, -far_away, away, 1};
+  samples.metadata["worldToNDC"] = std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, -far_away, far_away, 1, away};
+  samples.metadata["rpf:lensRadius"] = *rc::gen::element(0.0F, 1e-6F, 0.3F, 1e6F);
+  samples.metadata["rpf:focusDistance"] = *rc::gen::element(1e-6F, 3.0F, 1e6F);
+}
+
 RC_GTEST_PROP(Backends, GiveTheSameBitsAtAllExtremesTogether, ()) {
   if (backend_under_test() == "cpu") RC_SUCCEED("this is the reference");
   const SampleBuffer samples = any_extreme_frame();
@@ -52,6 +74,18 @@ RC_GTEST_PROP(Backends, FilterPixelsToTheSameFiniteBitsAtAllExtremesTogether, ()
   Settings settings = method_settings(*rc::gen::element<std::string>("nlm", "gem", "sbf", "axis-aligned"));
   settings.backend = backend_under_test();
   if (settings.method == Method::axis_aligned) cast_extreme_shadows(samples);
+  const std::vector<float> found = filtered(samples, settings);
+  RC_ASSERT(not_finite(found) == "");
+  settings.backend = "cpu";
+  RC_ASSERT(difference(found, filter(samples, settings).image.pixels, 24) == "");
+}
+
+RC_GTEST_PROP(Backends, SeeTheSameFiniteBitsAtAllExtremesTogether, ()) {
+  SampleBuffer samples = any_extreme_frame();
+  move_extremely(samples);
+  Settings settings = method_settings("lightfield");
+  settings.backend = backend_under_test();
+  settings.views = 5;
   const std::vector<float> found = filtered(samples, settings);
   RC_ASSERT(not_finite(found) == "");
   settings.backend = "cpu";

@@ -3,6 +3,7 @@ from mutants import Mutant
 
 PATCH, BANK, RISK, PLANES = "kernels/patch_steps.h", "kernels/bank_steps.h", "kernels/risk_steps.h", "kernels/plane_steps.h"
 SHADOW = "kernels/shadow_steps.h"
+VIEWS, TRACKS = "kernels/views.h", "src/plan/tracks.cpp"
 QUANTITIES = "src/frame/pixel_planes.cpp"
 
 MUTANTS = [
@@ -21,5 +22,10 @@ MUTANTS = [
     Mutant("pixel_shadow_normals", SHADOW, "turned <= step->least", "turned >= 0.0f * step->least", "oracle axis_aligned image", "weights: normals do not count"),
     Mutant("pixel_shadow_albedo", SHADOW, "in[x] / (albedo[x] > step->least ? albedo[x] : step->least)", "in[x]", "oracle axis_aligned image", "albedo: put in twice"),
     Mutant("pixel_shadow_least", QUANTITIES, "value < least)", "value > least)", "oracle axis_aligned image", "slopes: the largest"),
+    Mutant("light_crossings", VIEWS, "if (still < fabs(", "if (still < -fabs(", "oracle lightfield image", "surfaces: those that the lens parts are one"),
+    Mutant("light_covers", VIEWS, "return end - first > 2;", "return end - first > 9;", "oracle lightfield image", "coverage: of crowds only"),
+    Mutant("light_depth", VIEWS, "a->depth < b->depth", "a->depth > b->depth", "oracle lightfield image", "surfaces: the last one is seen"),
+    Mutant("light_shift", VIEWS, "1.0f / seen.depth - lens->inverse_focus", "1.0f / seen.depth", "oracle lightfield image", "the lens: focused on what is far"),
+    Mutant("light_bend", TRACKS, "bends ? off / around : 0", "0", "oracle lightfield image", "trajectories: straight ones"),
     Mutant("pixel_sbf_least", RISK, "variance > least ? variance : least", "variance + least", "oracle sbf image", "features: the least variance is added"),
 ]

@@ -9,7 +9,8 @@ import numpy as np
 SETTINGS = {"profile": "thesis", "boxes": [9, 7, 5, 3], "noise": 0.02, "bins": 7, "seed": 1,
             "random": ["lens", "time"], "features": ["N", "P", "albedo"], "samples_factor": None, "max_samples": None,
             "position_scale": 20, "reject_second_hit": False, "bias_correction": False, "alpha_factor": 2, "redraws": 8,
-            "method": "rpf", "sigma_color": 30, "sigma_feature": 0.5, "damping": 0.45, "window": 21, "gamma": 0.2, "bandwidth": 2}
+            "method": "rpf", "sigma_color": 30, "sigma_feature": 0.5, "damping": 0.45, "window": 21, "gamma": 0.2, "bandwidth": 2,
+            "views": 128}
 
 
 def uniform(rng, n):
@@ -65,7 +66,7 @@ def as_case(width, height, counts, channels, settings):
     assert not unknown, unknown
     single = {name: np.asarray(values, dtype=np.float32) for name, values in channels.items()}
     listed = {name: [None if np.isnan(v) else float(v) for v in values] for name, values in single.items()}
-    return {"width": width, "height": height, "counts": [int(c) for c in counts], "channels": listed,
+    return {"width": width, "height": height, "counts": [int(c) for c in counts], "channels": listed, "metadata": {},
             "settings": {**SETTINGS, **settings}}
 
 
@@ -256,6 +257,42 @@ PIXEL_CASES = {
     "axis_aligned_far": lambda: shadows(106, also=move_world),
 }
 
+def move_surfaces(channels, rng, counts):
+    """Where each point was when the shutter opened, and is when it closes: the near surface is faster, and all turn a little."""
+    time, depth = channels["random.time"], channels["feature.P.Z"]
+    for axis, speed, turn in (("X", 0.6, 0.1), ("Y", -0.2, 0.15), ("Z", 0.1, -0.05)):
+        place, travel = channels["feature.P." + axis], speed / depth
+        channels["feature.opening." + axis] = place - time * travel + turn * time * (1 + time)
+        channels["feature.closing." + axis] = place + (1 - time) * travel + turn * (1 - time) * (2 - time)
+
+
+def light_field(seed, also=None, lens=0.3, **keywords):
+    """A case of the light field: a camera in the origin that looks along z, y down; also(channels, rng, counts) edits it."""
+    def change(channels, rng, counts):
+        move_surfaces(channels, rng, counts)
+        if also:
+            also(channels, rng, counts)
+    case = pixels("lightfield", seed, change=change, **{"features": ["P", "opening", "closing"], "random": ["time"], "views": 12, **keywords})
+    width, height = case["width"], case["height"]
+    to_ndc = [20 / width, 0, 0, 0, 0, 20 / height, 0, 0, 0.5, 0.5, 0, 1, 0, 0, 1, 0]
+    to_camera = [1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+    case["metadata"] = {"worldToCamera": [float(v) for v in to_camera], "worldToNDC": [float(np.float32(v)) for v in to_ndc],
+                        "rpf:lensRadius": float(np.float32(lens)), "rpf:focusDistance": 3.0}
+    return case
+
+
+LIGHT_FIELD_CASES = {
+    "lightfield": lambda: light_field(120),
+    "lightfield_varying": lambda: light_field(121, varying=True),
+    "lightfield_gaps": lambda: light_field(122, spp=with_gaps(122)),
+    "lightfield_missing": lambda: light_field(123, also=miss_rays),
+    "lightfield_weighted": lambda: light_field(124, also=add_weighted_fireflies),
+    "lightfield_one_sample": lambda: light_field(125, spp=1, width=40, height=3),
+    "lightfield_pinhole": lambda: light_field(126, lens=0),
+    "lightfield_many": lambda: light_field(127, spp=40, width=5, height=4),
+    "lightfield_1e30": lambda: light_field(128, also=scaled_radiance(1e30)),
+}
+
 CASES = {
     "spp1_thesis": lambda: simple(11, spp=1, position_scale=1),
     "spp1_paper": lambda: simple(12, spp=1, position_scale=1, profile="paper", change=still_scene),
@@ -290,6 +327,7 @@ CASES = {
     "one_row": lambda: simple(34, 13, 1, profile="paper", random=["lens", "light"]),
     **FIXED_CASES,
     **PIXEL_CASES,
+    **LIGHT_FIELD_CASES,
 }
 
 

@@ -24,6 +24,7 @@ import cases
 import draw_statistics
 import fixed_weights
 import oracle
+import light_field
 import pixel_methods
 import scene_frame
 from report import Report
@@ -295,6 +296,8 @@ def witness_of(method):
     """What compares a trace of a method with the oracle."""
     if method in ("nlm", "gem", "sbf", "axis-aligned"):
         return pixel_methods.compare
+    if method == "lightfield":
+        return light_field.compare
     return compare if method == "rpf" else fixed_weights.compare
 
 

@@ -35,6 +35,7 @@ rpf::Settings read_settings(const json& s) {
   settings.damping = s.at("damping");
   settings.window = s.at("window");
   settings.gamma = s.at("gamma");
+  settings.views = s.at("views");
   settings.bandwidth = s.at("bandwidth");
   settings.profile = s.at("profile") == "paper" ? rpf::Profile::paper : rpf::Profile::thesis;
   settings.box_widths = s.at("boxes").get<std::vector<int>>();
@@ -59,6 +60,12 @@ rpf::SampleBuffer read_samples(const json& c) {
   samples.first_sample = {0};
   for (const std::uint32_t count : c.at("counts").get<std::vector<std::uint32_t>>())
     samples.first_sample.push_back(samples.first_sample.back() + count);
+  for (const auto& attribute : c.at("metadata").items()) {
+    if (attribute.value().is_array())
+      samples.metadata[attribute.key()] = attribute.value().get<std::vector<float>>();
+    else
+      samples.metadata[attribute.key()] = attribute.value().get<float>();
+  }
   for (const auto& channel : c.at("channels").items()) samples.layout.slots.push_back(channel.key());
   for (std::size_t i = 0; i < samples.sample_count(); ++i)
     for (const std::string& slot : samples.layout.slots)

@@ -41,6 +41,12 @@ TOLERANCE = {
     "pixel_color": 1e-6,
     # a weight as near to the least one that counts may count or not; the bound of its pixel allows both
     "pixel_near": 1e-4,
+    # the light field, section 11: pixels, or the part of a depth, within which float32 may decide otherwise; what a picture
+    # may differ by where it does not, relative to the brightest value: the sum of up to some hundred differences; and the
+    # part of all views that may be so close, beyond which nothing would be compared
+    "light_near": 5e-6,
+    "light_color": 1e-6,
+    "light_close": 0.1,
     # standard deviations of chance; 6 happens once in 1e9
     "draw_statistics": 6.0,
 }

@@ -51,7 +51,8 @@ std::string refusal_by_rows(const SampleBuffer& samples, Settings settings) {
   try {
     filter_rows(rows, settings);
   } catch (const Error& error) {
-    const bool is_expected = error.kind() == (filters_pixels(settings.method) ? ErrorKind::usage : ErrorKind::memory);
+    const bool is_expected =
+        error.kind() == (needs_whole_frame(settings.method) ? ErrorKind::usage : ErrorKind::memory);
     return is_expected ? error.what() : fmt::format("another kind of error: {}", error.what());
   }
   return "";
@@ -78,7 +79,7 @@ Result streamed(const SampleBuffer& samples, Settings settings) {
 }
 
 std::string refusal_of(const Settings& settings) {
-  if (filters_pixels(settings.method)) return "filters the whole frame at once";
+  if (needs_whole_frame(settings.method)) return "filters the whole frame at once";
   if (settings.method == Method::rpf && settings.drop_uninformative) return "take fewer rows at once";
   return "";
 }

@@ -249,6 +249,19 @@ TEST(Solids, AreSeenWhereTheyAreAtTheTimeOfTheRay) {
   }
 }
 
+// A quarter turn and a step to the right: the rightmost point of the box goes to its front, and with it.
+TEST(Solids, CarryTheirPointsAlong) {
+  Solid box;
+  box.center = {2, 0, 0};
+  box.velocity = {3, 0, 0};
+  box.turn = -pi / 2;
+  const Vec3 closing = box.carried({3, 0.5F, 0}, 0, 1), opening = box.carried(closing, 1, 0);
+  EXPECT_NEAR(closing.x, 5, 1e-6F);
+  EXPECT_NEAR(closing.y, 0.5F, 1e-6F);
+  EXPECT_NEAR(closing.z, 1, 1e-6F);
+  EXPECT_NEAR(length(opening - Vec3{3, 0.5F, 0}), 0, 1e-6F);
+}
+
 // Similar triangles: a plate at a quarter of the way up to a light of edge 2 blurs its edge over a third of the light.
 TEST(Penumbras, AreAsWideAsSimilarTrianglesSay) {
   World world;

@@ -56,10 +56,10 @@ bool is_zero(const SampleBuffer& samples, const std::string& slot) {
 
 class EveryScene : public testing::TestWithParam<std::string> {};
 
-TEST_P(EveryScene, IsTheSameWithPenumbras) {
+TEST_P(EveryScene, IsTheSameWithPenumbrasAndLightField) {
   SceneOptions options = small();
   const SampleBuffer plain = render_scene(GetParam(), options);
-  options.penumbra = true;
+  options.penumbra = options.lightfield = true;
   const SampleBuffer more = render_scene(GetParam(), options);
   for (const std::string& slot : plain.layout.slots)
     for (std::size_t i = 0; i < plain.sample_count(); ++i) {
@@ -67,6 +67,13 @@ TEST_P(EveryScene, IsTheSameWithPenumbras) {
       ASSERT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << slot;
     }
   EXPECT_EQ(is_zero(more, "feature.penumbra.slope"), is_zero(more, "feature.penumbra.width"));
+  for (std::size_t i = 0; i < more.sample_count() && is_zero(more, "random.time"); ++i)
+    for (const std::string axis : {"X", "Y", "Z"}) {
+      const auto of = [&](const std::string& group) { return *more.layout.find("feature." + group + "." + axis); };
+      const float* record = more.record(i);
+      const float place = record[of("P")], opening = record[of("opening")], closing = record[of("closing")];
+      ASSERT_TRUE(std::isnan(place) ? std::isnan(opening) : opening == place && closing == place) << i;
+    }
 }
 
 TEST_P(EveryScene, HasFiniteRadianceThatIsNotNegative) {
