@@ -153,6 +153,16 @@ RPF_INLINE float rpf_distance_scale(float sharpness, float coefficient) { return
 #define RPF_GROUP (RPF_STRETCH * RPF_LANES)
 RPF_INLINE uint rpf_groups(uint own) { return (own + RPF_GROUP - 1) / RPF_GROUP; }
 
+// As many own samples at most are weighed with one neighbor.
+RPF_INLINE uint rpf_group_size(uint own) { return own < RPF_GROUP ? own : RPF_GROUP; }
+
+// The own samples that are weighed with a neighbor: from here to rpf_group_end().
+RPF_INLINE uint rpf_group_begin(uint own, uint neighbor) { return neighbor / RPF_GROUP % rpf_groups(own) * RPF_GROUP; }
+RPF_INLINE uint rpf_group_end(uint own, uint neighbor) {
+  const uint begin = rpf_group_begin(own, neighbor);
+  return begin + rpf_group_size(own - begin);
+}
+
 // c''_i (T 5.11), held inside the range of the colors it averages: rounding cannot leave the convex hull.
 RPF_INLINE float rpf_filtered(float weighted_sum, float weight_sum, float smallest, float largest) {
   const float mean = weighted_sum / weight_sum;

@@ -18,12 +18,9 @@ static uint end_own(const rpf_pass* pass, const Means* means) {
   return RPF_LONG ? min(pass->end_own, means->own) : means->own;
 }
 
-// The own samples that take the stretch from block `first` on: from here to group_end().
-static uint group_begin(const Means* means, uint first) {
-  return first / RPF_STRETCH % rpf_groups(means->own) * RPF_GROUP;
-}
-
-static uint group_end(const Means* means, uint first) { return min(group_begin(means, first) + RPF_GROUP, means->own); }
+// The own samples that take the stretch from block `first` on.
+static uint group_begin(const Means* means, uint first) { return rpf_group_begin(means->own, first * RPF_LANES); }
+static uint group_end(const Means* means, uint first) { return rpf_group_end(means->own, first * RPF_LANES); }
 
 // The tree of rpf_lanes_total.
 static float lanes_total(float16 sum) {

@@ -163,8 +163,8 @@ float effective_samples(std::uint32_t own, std::uint32_t neighbors, const Filter
   float block[RPF_LANES];
   for (std::uint32_t begin = 0; begin < neighbors && !must_stop(); begin += RPF_LANES) {
     float share[RPF_LANES] = {};
-    const std::uint32_t group = begin / RPF_GROUP % kernel::rpf_groups(own) * RPF_GROUP;
-    for (std::uint32_t i = group; i < std::min<std::uint32_t>(group + RPF_GROUP, own); ++i) {
+    const std::uint32_t end = kernel::rpf_group_end(own, begin);
+    for (std::uint32_t i = kernel::rpf_group_begin(own, begin); i < end; ++i) {
       block_weights(scratch, i, begin, neighbors, block);
       for (int l = 0; l < RPF_LANES; ++l) share[l] += block[l] * scratch.inverse_total[i];
     }

@@ -16,7 +16,7 @@ struct PixelWork {
   std::uint64_t own = 0, neighbors = 0;
 
   /// At most: a neighbor is weighed for the own samples of one group.
-  std::uint64_t weights() const { return std::min<std::uint64_t>(own, RPF_GROUP) * neighbors; }
+  std::uint64_t weights() const { return kernel::rpf_group_size(static_cast<std::uint32_t>(own)) * neighbors; }
 };
 
 /// Of a pixel without samples all is 0.

@@ -49,8 +49,7 @@ void plan_fixed_weights(const FrameFacts& facts, const Settings& settings, PassP
   for (std::size_t k = 0; k < facts.feature_spread.size(); ++k)
     add(facts.variables.features() + k, settings.sigma_feature * facts.feature_spread[k].deviation);
   pass.max_neighbors = largest_box(facts, pass.box_width);
-  pass.fixed_weights =
-      std::uint64_t{pass.max_neighbors} * std::min<std::uint32_t>(facts.max_samples_per_pixel, RPF_GROUP);
+  pass.fixed_weights = std::uint64_t{pass.max_neighbors} * kernel::rpf_group_size(facts.max_samples_per_pixel);
 }
 
 }  // namespace rpf

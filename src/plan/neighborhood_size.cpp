@@ -8,7 +8,7 @@
 namespace rpf {
 
 std::uint32_t NeighborhoodSize::size(std::uint32_t samples) const {
-  const std::uint64_t counted = std::min<std::uint64_t>(samples, RPF_GROUP);
+  const std::uint64_t counted = kernel::rpf_group_size(samples);
   const std::uint64_t wanted = grows_with_samples ? box_area * counted / 2 : fixed;
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, limit));
 }
