@@ -30,11 +30,12 @@ Image density_of(const Options& o, const SampleReadOptions& reading) {
   return sample_density(read_samples(o.input, reading), o.samples, estimate);
 }
 
-/// Samples as they are read, and some numbers a pixel.
-std::uint64_t bytes_of(const SampleFileInfo& info, std::size_t slots) {
+/// Samples as they are read, some numbers a pixel, and the estimate.
+std::uint64_t bytes_of(const SampleFileInfo& info, std::size_t slots, const std::string& estimate) {
   constexpr std::uint64_t numbers = 12;
   return info.sample_count * (slots + spare_columns) * sizeof(float) +
-         info.data_window.pixel_count() * numbers * sizeof(double);
+         info.data_window.pixel_count() * numbers * sizeof(double) +
+         (estimate.empty() ? 0 : image_bytes(inspect_image(estimate)));
 }
 
 std::vector<std::string> inputs_of(const Options& o) {
@@ -45,7 +46,7 @@ int run(const Options& o) {
   SampleReadOptions read_options = read_options_of(o.map, memory_limit(o.max_memory_mb));
   read_options.slots = std::vector<std::string>{"R", "G", "B", "film.X", "film.Y"};
   const SampleFileInfo info = inspect_samples(o.input, read_options);
-  check_need(info, "density", bytes_of(info, read_options.slots->size()), read_options.max_memory);
+  check_need(info, "density", bytes_of(info, read_options.slots->size(), o.estimate), read_options.max_memory);
   check_outputs({{o.output, OutputKind::image, {"Y"}, info.data_window}}, inputs_of(o));
   const Image density = density_of(o, read_options);
   const SignalGuard guard;  // a signal now waits until the file is whole

@@ -117,8 +117,10 @@ class Memory(unittest.TestCase):
         for arguments in (["--method", "bilateral", self.picture, "-o", self.folder / "out.exr"], ["compare", self.picture, self.picture]):
             self.assertGreater(self.expect_refusal([*arguments, "--max-memory", "100"]), 1000)
 
-    def test_the_picture_of_a_density(self):
-        self.expect_refusal(["scene", "dof", "--density", self.header, "-o", self.folder / "out.exr", "--max-memory", "1000"])
+    def test_pictures_beside_the_samples(self):
+        self.assertEqual(self.run_rpf("scene", "dof", "--size", "8x6", "--spp", "4", "-q", "-o", self.samples)[0], 0)
+        for arguments in (["scene", "dof", "--density", self.header], ["density", self.samples, "--error", self.header]):
+            self.expect_refusal([*arguments, "-o", self.folder / "out.exr", "--max-memory", "1000"])
 
     def test_a_header_that_promises_more_than_there_is(self):
         arguments = ["--method", "bilateral", self.header, "-o", self.folder / "out.exr"]
