@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -42,6 +43,8 @@ struct Image {
 
   /// Values of a pixel.
   std::size_t channel_count() const { return channels.size(); }
+  /// Where a pixel has this channel.
+  std::optional<std::size_t> find(const std::string& channel) const;
   /// The channels of pixel number `index` (row-major in the data window).
   float* pixel(std::size_t index) { return pixels.data() + index * channels.size(); }
   /// The same, to be read.

@@ -145,8 +145,7 @@ class MapMaker {
 }  // namespace
 
 std::size_t channel_of(const Image& layers, const std::string& name) {
-  return static_cast<std::size_t>(std::find(layers.channels.begin(), layers.channels.end(), name) -
-                                  layers.channels.begin());
+  return layers.find(name).value_or(layers.channel_count());
 }
 
 Image part_of(const Image& layers, const std::string& first, const std::vector<std::string>& names) {

@@ -90,14 +90,13 @@ Values wanted_samples(const SampleBuffer& frame) {
 /// The same for the method's own error e of its picture from n samples a pixel: e^2 falls as v / n, and e is a part of
 /// its mean at least.
 Values wanted_for(const Image& estimate, const Values& counts) {
-  const auto channel = std::find(estimate.channels.begin(), estimate.channels.end(), "error");
-  if (channel == estimate.channels.end())
+  const auto column = estimate.find("error");
+  if (!column)
     throw Error(ErrorKind::input, "density: the estimate has no channel error; write it with --aov FILE --error");
-  const auto column = static_cast<std::size_t>(channel - estimate.channels.begin());
   Values wanted;
   double sum = 0;
   for (std::size_t p = 0; p < counts.size(); ++p) {
-    const double error = estimate.pixel(p)[column];
+    const double error = estimate.pixel(p)[*column];
     wanted.push_back(std::isfinite(error) ? std::max(error, 0.0) * std::sqrt(std::max(counts[p], 1.0)) : 0.0);
     sum += wanted.back();
   }

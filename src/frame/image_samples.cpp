@@ -11,15 +11,11 @@ namespace {
 
 /// The channels that become R, G, B and, where there is one, A.
 std::vector<std::size_t> color_columns(const Image& image) {
-  const auto column = [&](const char* name) {
-    const auto found = std::find(image.channels.begin(), image.channels.end(), name);
-    return static_cast<std::size_t>(found - image.channels.begin());
-  };
   if (image.channel_count() == 1) return {0, 0, 0};
   std::vector<std::size_t> columns;
-  for (const char* name : {"R", "G", "B", "A"}) columns.push_back(column(name));
-  if (columns.back() == image.channel_count()) columns.pop_back();
-  if (*std::max_element(columns.begin(), columns.end()) < image.channel_count()) return columns;
+  for (const char* name : {"R", "G", "B", "A"})
+    if (const auto column = image.find(name)) columns.push_back(*column);
+  if (image.find("R") && image.find("G") && image.find("B")) return columns;
   throw Error(ErrorKind::input, fmt::format("the image has channels {}; R, G and B are needed, or one channel alone",
                                             fmt::join(image.channels, ", ")));
 }

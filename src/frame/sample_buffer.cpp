@@ -39,13 +39,17 @@ void include(ChannelSurvey& channel, float value, bool& any_finite, std::int64_t
   channel.maximum = std::max(channel.maximum, value);
 }
 
+std::optional<std::size_t> place_of(const std::string& name, const std::vector<std::string>& names) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names.begin());
+}
+
 }  // namespace
 
-std::optional<std::size_t> SampleLayout::find(const std::string& slot) const {
-  const auto found = std::find(slots.begin(), slots.end(), slot);
-  if (found == slots.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - slots.begin());
-}
+std::optional<std::size_t> SampleLayout::find(const std::string& slot) const { return place_of(slot, slots); }
+
+std::optional<std::size_t> Image::find(const std::string& channel) const { return place_of(channel, channels); }
 
 bool is_random_slot(const std::string& slot) { return starts_with(slot, random_prefix); }
 

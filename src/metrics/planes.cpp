@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <numeric>
 
 #include "rpf/error.h"
@@ -12,8 +11,7 @@ namespace rpf::metrics {
 namespace {
 
 std::size_t channel_of(const Image& image, const char* name, const char* role) {
-  const auto found = std::find(image.channels.begin(), image.channels.end(), name);
-  if (found != image.channels.end()) return static_cast<std::size_t>(found - image.channels.begin());
+  if (const auto column = image.find(name)) return *column;
   throw Error(ErrorKind::input, fmt::format("the {} has no channel {}; R, G and B are compared, and it has {}", role,
                                             name, fmt::join(image.channels, ", ")));
 }

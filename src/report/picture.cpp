@@ -29,9 +29,7 @@ Scale scale_of(const Window& size, int count) {
 
 /// Column of a channel by name, its position in R, G, B where the name is missing.
 std::size_t column(const Image& image, const char* name, std::size_t otherwise) {
-  const auto found = std::find(image.channels.begin(), image.channels.end(), name);
-  return found != image.channels.end() ? static_cast<std::size_t>(found - image.channels.begin())
-                                       : otherwise % image.channel_count();
+  return image.find(name).value_or(otherwise % image.channel_count());
 }
 
 /// Mean of the pixels of `part` in a square; its first pixel lies in the part.

@@ -3,7 +3,6 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -64,9 +63,9 @@ const Library& library() {
 std::vector<float> channels_of(const Image& image, const std::array<const char*, 3>& names) {
   std::array<std::size_t, 3> columns{};
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto found = std::find(image.channels.begin(), image.channels.end(), names.at(c));
-    if (found == image.channels.end()) return {};
-    columns.at(c) = static_cast<std::size_t>(found - image.channels.begin());
+    const auto column = image.find(names.at(c));
+    if (!column) return {};
+    columns.at(c) = *column;
   }
   std::vector<float> values;
   for (std::size_t p = 0; p < image.data_window.pixel_count(); ++p)
