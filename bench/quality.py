@@ -1,11 +1,12 @@
 """Presets beside Open Image Denoise with noisy features, frame by frame, on the same samples.
 
 Usage: quality.py FOLDER... [--build BUILD] [--presets fast,balanced,high] [--page PAGE] [--json OUT.json]
-                  [--pictures DIR --of NAME,NAME]
+                  [--samples N] [--pictures DIR --of NAME,NAME]
 
 A FOLDER holds NAME.samples.exr or .rpf and NAME.reference.exr or .rpf (NAME-4spp.samples.exr and NAME.ref.exr are found too).
 Ratios are to Open Image Denoise, of trimmed relMSE and of FLIP: below 1 is better than it. --page replaces the table between
-<!-- quality --> and <!-- end --> there. --pictures writes DIR/NAME.png of these frames: plain mean, presets, Open Image Denoise and
+<!-- quality --> and <!-- end --> there. --samples takes the first N samples of every pixel, leaves out frames that have fewer, and its table
+is <!-- quality N -->. --pictures writes DIR/NAME.png of these frames: plain mean, presets, Open Image Denoise and
 reference in a row, and below the part where the mean is worst, enlarged.
 """
 import argparse
@@ -17,6 +18,7 @@ import tempfile
 from pathlib import Path
 
 import oidn
+import raw_samples
 from marked_page import write_table
 
 PROJECT = Path(__file__).resolve().parent.parent
@@ -51,6 +53,16 @@ class Measurement:
         image = self.work / "reference.exr"
         self.run(path, "--method", "rpf", "--boxes", "none", "-o", image, "-q")
         return image
+
+    def first_samples(self, samples, n):
+        """The file of the first n samples of every pixel; None where there are fewer."""
+        raw, some = self.work / "all.rpf", self.work / "some.rpf"
+        self.run("convert", samples, "-o", raw)
+        header, counts, channels = raw_samples.first_samples(raw_samples.read_samples(raw), n)
+        if counts.min() < n:
+            return None
+        raw_samples.write_samples(some, header["dataWindow"], counts, channels, header["metadata"])
+        return some
 
     def frame(self, name, samples, reference):
         """{method: errors} of one frame."""
@@ -97,6 +109,7 @@ def main():
     parser.add_argument("folders", nargs="+")
     parser.add_argument("--build", default=PROJECT / "build/release")
     parser.add_argument("--presets", default="fast,balanced,high")
+    parser.add_argument("--samples", type=int)
     parser.add_argument("--page")
     parser.add_argument("--json")
     parser.add_argument("--pictures", type=Path)
@@ -110,6 +123,10 @@ def main():
     with tempfile.TemporaryDirectory() as work:
         measurement = Measurement(build / "rpf", python, presets, Path(work), options.pictures, options.of.split(","))
         for name, samples, reference in frames_of(options.folders):
+            if options.samples:
+                samples = measurement.first_samples(samples, options.samples)
+                if not samples:
+                    continue
             results[name] = measurement.frame(name, samples, reference)
             print(table({name: results[name]}, presets)[2], flush=True)
     rows = table(results, presets)
@@ -117,7 +134,7 @@ def main():
     if options.json:
         Path(options.json).write_text(json.dumps(results, indent=1))
     if options.page:
-        write_table(options.page, "quality", rows)
+        write_table(options.page, f"quality {options.samples}" if options.samples else "quality", rows)
     return 0
 
 

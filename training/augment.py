@@ -13,19 +13,28 @@ OFTEN_REPEATED = 0.1  # of the steps have counts that no scene was rendered with
 MOST_REPEATED = 32    # times
 
 
-def chosen_samples(samples, reference, rng):
-    """1 to all of the samples, 4 most often, of the frame or of a part of it. [27, n, y, x]"""
-    n, height, width = samples.shape[1:]
+def chosen_count(n, rng):
+    """1 to all of n samples, 4 most often."""
     powers = [2 ** k for k in range(n.bit_length()) if 2 ** k <= n]
-    count = 4 if rng.random() < (0.6 if n <= 8 else 0.1) else powers[int(rng.integers(len(powers)))]
-    if count < n:
-        samples = samples[:, torch.from_numpy(rng.permutation(n)[:count].copy())]
-    times = 2 ** int(rng.integers(1, MOST_REPEATED.bit_length())) if rng.random() < OFTEN_REPEATED else 1
-    count *= times
+    return 4 if rng.random() < (0.6 if n <= 8 else 0.3) else powers[int(rng.integers(len(powers)))]
+
+
+def part_shape(height, width, count):
+    """Of the part of a frame that a step can see with so many samples a pixel."""
     while count * height * width > MOST_VALUES and min(height, width) > 4 * ALIGNED:
         height, width = (height // 2, width) if height >= width else (height, width // 2)
-    y, x = (int(rng.integers((size - part) // ALIGNED + 1)) * ALIGNED for size, part in zip(samples.shape[2:], (height, width)))
-    return repeated(samples[:, :, y:y + height, x:x + width], reference[:, y:y + height, x:x + width], times)
+    return height, width
+
+
+def chosen_samples(samples, reference, rng):
+    """Some of the samples, of the frame or of a part of it. [27, n, y, x]"""
+    n, *shape = samples.shape[1:]
+    count = chosen_count(n, rng)
+    times = 2 ** int(rng.integers(1, MOST_REPEATED.bit_length())) if rng.random() < OFTEN_REPEATED else 1
+    part = part_shape(*shape, count * times)
+    y, x = (int(rng.integers((size - p) // ALIGNED + 1)) * ALIGNED for size, p in zip(shape, part))
+    samples, reference = (v[..., y:y + part[0], x:x + part[1]] for v in (samples, reference))
+    return repeated(samples[:, torch.from_numpy(rng.permutation(n)[:count].copy())], reference, times)
 
 
 def repeated(samples, reference, times):

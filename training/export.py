@@ -47,6 +47,11 @@ def network_of(state):
     return network
 
 
+def any_network(path):
+    """The network of a checkpoint, or of a file of ours."""
+    return read(path) if str(path).endswith(".rpfnet") else network_of(torch.load(path, weights_only=False))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("checkpoint")

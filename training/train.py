@@ -1,7 +1,8 @@
 """Trains one network. Resumable: all state is in --run, written every few minutes; stop it at any time.
 
 Usage: train.py --run DIR --frames CACHE --validation CACHE --hours H [--channels 24,40,64,80] [--sample-features 24] [--seed 1]
-                [--start CHECKPOINT]   (of a network that is as wide or narrower, widen.py)
+                [--start CHECKPOINT|NETWORK.rpfnet] [--rate 1e-3]
+--start goes on from a network that is as wide or narrower (widen.py): a checkpoint's or one that ships; its rate may be lower.
 CACHE holds NAME.samples.npy ([27, n, y, x], frames.py) and NAME.ref.npy ([3, y, x]), exposed alike; it may grow during training.
 The learning rate follows the hours spent (of one core), so a run that is interrupted ends with the same schedule.
 """
@@ -16,17 +17,17 @@ import numpy as np
 import torch
 import torch.nn.functional as F
 
-from augment import augmented
+import export
+from augment import augmented, part_shape
 from estimator import Network
-from export import network_of
 from optimizer import Optimizer
 from widen import widen
 
-PEAK, FLOOR, WARM_UP = 1e-3, 1e-5, 200  # learning rates; steps
+FLOOR, WARM_UP = 1e-5, 200  # learning rate; steps
 LONGEST_GRADIENT = 10  # of the logarithm of the loss
 AVERAGE = 0.998  # of the weights that are validated and exported: a mean over the latest 500 steps
 CHECKPOINT_SECONDS = 180
-HIGHEST_COUNT_VALIDATED = 4
+VALIDATED_COUNTS = (4, 16, 64)  # samples a pixel, as far as the frames have them
 
 
 def loss_of(result, reference):
@@ -62,8 +63,8 @@ class Frames:
         self.names = sorted(p.name[:-len(".samples.npy")] for p in self.folder.glob("*.samples.npy"))
 
     def load(self, name):
-        return (torch.from_numpy(np.load(self.folder / f"{name}.samples.npy")),
-                torch.from_numpy(np.load(self.folder / f"{name}.ref.npy")))
+        """Mapped: a step reads of it what it sees."""
+        return tuple(torch.from_numpy(np.load(self.folder / f"{name}.{kind}.npy", mmap_mode="c")) for kind in ("samples", "ref"))
 
 
 class Run:
@@ -73,7 +74,7 @@ class Run:
         torch.manual_seed(args.seed)
         self.network = Network([int(c) for c in args.channels.split(",")], args.sample_features)
         if args.start:
-            widen(network_of(torch.load(args.start, weights_only=False)), self.network)
+            widen(export.any_network(args.start), self.network)
         self.average = {k: v.clone() for k, v in self.network.state_dict().items()}
         self.optimizer = Optimizer(self.network)
         self.step, self.seconds, self.recent = 0, 0.0, []
@@ -96,7 +97,7 @@ class Run:
 
     def rate(self):
         progress = min(self.seconds / (self.args.hours * 3600), 1)
-        return max(FLOOR, PEAK * 0.5 * (1 + math.cos(math.pi * progress))) * min(1, (self.step + 1) / WARM_UP)
+        return max(FLOOR, self.args.rate * 0.5 * (1 + math.cos(math.pi * progress))) * min(1, (self.step + 1) / WARM_UP)
 
     def train_step(self, frames):
         samples, reference = frames.load(frames.names[int(self.rng.integers(len(frames.names)))])
@@ -117,17 +118,21 @@ class Run:
 
     @torch.no_grad()
     def validate(self, frames):
+        """{samples a pixel: geometric mean of the frames' errors}"""
         network = Network(self.network.channels, self.network.sample_features)
         network.load_state_dict(self.average)
-        errors = []
+        errors = {}
         for name in frames.names:
             samples, reference = frames.load(name)
-            errors.append(trimmed_error(network(samples[:, :HIGHEST_COUNT_VALIDATED].float()), reference))
-        return float(np.exp(np.mean(np.log(errors)))), float(np.mean(errors))
+            for count in (c for c in VALIDATED_COUNTS if c <= samples.shape[1]):
+                height, width = part_shape(*reference.shape[1:], count)
+                result = network(samples[:, :count, :height, :width].float())
+                errors.setdefault(count, []).append(trimmed_error(result, reference[:, :height, :width]))
+        return {count: float(np.exp(np.mean(np.log(e)))) for count, e in errors.items()}
 
     def log(self, validation, frames):
         line = dict(step=self.step, hours=round(self.seconds / 3600, 4), frames=len(frames.names), rate=self.rate(),
-                    loss=float(np.mean(self.recent)), validation=validation[0], validation_mean=validation[1], time=time.strftime("%H:%M:%S"))
+                    loss=float(np.mean(self.recent)), validation=validation, time=time.strftime("%H:%M:%S"))
         self.recent = []
         with open(self.folder / "log.jsonl", "a") as file:
             file.write(json.dumps(line) + "\n")
@@ -157,6 +162,7 @@ def main():
     parser.add_argument("--sample-features", type=int, default=24)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--start")
+    parser.add_argument("--rate", type=float, default=1e-3)
     parser.add_argument("--threads", type=int, default=1)
     args = parser.parse_args()
     torch.set_num_threads(args.threads)
