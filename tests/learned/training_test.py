@@ -36,17 +36,20 @@ def fresh_python():
     return python
 
 
-def train(python):
-    """-> the exported network"""
-    work = options.work
+def make_frames(python):
     for part, first, count in (("scenes", 1, SCENES), ("held-out", 1001, HELD_OUT)):
-        run(python, TRAINING / "scenes/generate.py", "--out", work / part, "--first", first, "--count", count, "--size", "64x64",
+        run(python, TRAINING / "scenes/generate.py", "--out", options.work / part, "--first", first, "--count", count, "--size", "64x64",
             "--reference-spp", "72")
-        run(python, TRAINING / "scenes/to_frames.py", work / part, work / f"{part}-frames")
-    run(python, TRAINING / "train.py", "--run", work / "run", "--frames", work / "scenes-frames", "--validation",
-        work / "held-out-frames", "--hours", options.minutes / 60, *SMALL_NETWORK)
-    run(python, TRAINING / "export.py", work / "run/checkpoint.pt", work / "small.rpfnet", "--name", "small")
-    return work / "small.rpfnet"
+        run(python, TRAINING / "scenes/to_frames.py", options.work / part, options.work / f"{part}-frames")
+
+
+def train(python, name, minutes, *start):
+    """-> the exported network"""
+    run_folder, network = options.work / name, options.work / f"{name}.rpfnet"
+    run(python, TRAINING / "train.py", "--run", run_folder, "--frames", options.work / "scenes-frames", "--validation",
+        options.work / "held-out-frames", "--hours", minutes / 60, *SMALL_NETWORK, *start)
+    run(python, TRAINING / "export.py", run_folder / "checkpoint.pt", network, "--name", name)
+    return network
 
 
 def errors(model):
@@ -65,7 +68,10 @@ def main():
     shutil.rmtree(options.work, ignore_errors=True)
     options.work.mkdir(parents=True)
     python = fresh_python()
-    mean, result = errors(train(python))
+    make_frames(python)
+    small = train(python, "small", options.minutes)
+    further = train(python, "further", options.minutes / 10, "--start", small, "--rate", 1e-4)
+    mean, result = errors(further)
     print(f"relMSE {mean:.4f} -> {result:.4f}")
     if result > mean / 2:
         print("FAIL: a network of some minutes has at most half the error of the plain mean")
