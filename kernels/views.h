@@ -139,11 +139,17 @@ RPF_INLINE void rpf_sort_by_depth(rpf_seen* seen) {
   }
 }
 
+// How many cells of a view lie beside and below each other, its margins among them.
+RPF_INLINE int rpf_cell_columns(const rpf_light_field* field) {
+  return field->width * field->finer + 2 * field->margin;
+}
+RPF_INLINE int rpf_cell_rows(const rpf_light_field* field) { return field->height * field->finer + 2 * field->margin; }
+
 // Those within the reach of x, y.
 RPF_INLINE void rpf_look_around(const rpf_light_field* field, const rpf_cells* cells, float x, float y,
                                 rpf_seen* seen) {
   const float reach = field->reach, finer = (float)field->finer;
-  const int columns = field->width * field->finer + 2 * field->margin;
+  const int columns = rpf_cell_columns(field);
   const int left = rpf_floor((x - reach) * finer) + field->margin,
             right = rpf_floor((x + reach) * finer) + field->margin;
   const int top = rpf_floor((y - reach) * finer) + field->margin,

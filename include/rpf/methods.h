@@ -20,6 +20,12 @@ bool filters_pixels(Method method);
 /// Whether a method can be had of the whole frame only, not of rows of it: those that filter pixels, and lightfield.
 bool needs_whole_frame(Method method);
 
+/// Whether a method has to know how far each feature spreads over the frame.
+bool needs_feature_spread(Method method);
+
+/// Whether a method also looks at channels that have one value in the whole frame; all others drop them.
+bool keeps_constant_channels(Method method);
+
 /// The settings of a method: box widths, sigmas and features that did well for it (docs/methods.md); whatever it does
 /// not choose has its default. Throws Error(usage) for an unknown name, naming those there are.
 Settings method_settings(const std::string& name);

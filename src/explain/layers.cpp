@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "explain/blur.h"
+#include "frame/place_of.h"
 #include "rpf_math.h"
 
 namespace rpf {
@@ -53,9 +54,7 @@ Layers::Layers(const PreparedFrame& prepared, const Plan& plan, const std::vecto
       noise_(channel("noise.sample")),
       density_(channel("density")) {}
 
-std::size_t Layers::channel(const std::string& name) const {
-  return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
-}
+std::size_t Layers::channel(const std::string& name) const { return *place_of(name, names_); }
 
 void Layers::explain_dependencies(const float* information, std::size_t pixel) {
   const std::size_t random = plan_.variables.random_names.size(), features = plan_.variables.feature_names.size();
@@ -103,10 +102,9 @@ void Layers::add_colors(const std::vector<float>& mean, const std::vector<float>
 }
 
 void Layers::add_mean(const std::string& layer, const std::string& feature) {
-  const std::vector<std::string>& features = plan_.variables.feature_names;
-  const auto found = std::find(features.begin(), features.end(), feature);
-  if (found == features.end()) return;
-  const std::size_t column = plan_.variables.features() + static_cast<std::size_t>(found - features.begin());
+  const std::optional<std::size_t> place = place_of(feature, plan_.variables.feature_names);
+  if (!place) return;
+  const std::size_t column = plan_.variables.features() + *place;
   const std::size_t to = channel(layer);
   const Frame& frame = prepared_.frame;
   for (std::size_t pixel = 0; pixel + 1 < frame.first_sample.size(); ++pixel) {

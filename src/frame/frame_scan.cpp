@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rpf/methods.h"
+
 namespace rpf {
 namespace {
 
@@ -33,8 +35,7 @@ FrameScan::FrameScan(const SampleBuffer& frame, const Settings& settings)
       high_(low_.size(), -std::numeric_limits<double>::infinity()) {
   for (const auto* slots : {&clean_.selection.random, &clean_.selection.features})
     for (const std::string& slot : *slots) channels_.push_back({slot, source_of(frame.layout, slot)});
-  // The light field needs where surfaces are, not only how they differ.
-  for (Channel& channel : channels_) channel.varies = settings.method == Method::lightfield;
+  for (Channel& channel : channels_) channel.varies = keeps_constant_channels(settings.method);
 }
 
 void FrameScan::add(SampleBuffer& rows) {

@@ -8,6 +8,7 @@
 #include "frame/feature_spread.h"
 #include "frame/frame_scan.h"
 #include "frame/repack.h"
+#include "rpf/methods.h"
 
 namespace rpf {
 namespace {
@@ -45,8 +46,7 @@ PreparedFrame prepare(SampleBuffer samples, const Settings& settings) {
   FrameScan scan(frame, settings);
   scan.add(samples);
   PreparedFrame result = prepare_rows(std::move(samples), frame, scan.findings(), settings);
-  if (settings.method == Method::cross_bilateral || settings.method == Method::sbf ||
-      settings.method == Method::axis_aligned || settings.method == Method::lightfield)
+  if (needs_feature_spread(settings.method))
     result.facts.feature_spread = spread_of_features(result.frame, result.facts.variables);
   return result;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "frame/place_of.h"
 #include "rpf/error.h"
 #include "rpf/samples.h"
 
@@ -37,12 +38,6 @@ void include(ChannelSurvey& channel, float value, bool& any_finite, std::int64_t
   any_finite = true;
   channel.minimum = std::min(channel.minimum, value);
   channel.maximum = std::max(channel.maximum, value);
-}
-
-std::optional<std::size_t> place_of(const std::string& name, const std::vector<std::string>& names) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - names.begin());
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include "plan/axis_aligned.h"
 
 #include <algorithm>
+#include <optional>
+
+#include "frame/place_of.h"
 
 namespace rpf {
 namespace {
@@ -66,9 +69,9 @@ class AxisAligned {
   /// A feature that has no value anywhere, or one value everywhere, is not among the variables: 0 then.
   PixelPlane of_feature(PixelQuantity quantity, const std::string& name, double unit = 1) const {
     const auto& names = planning_.facts().variables.feature_names;
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) return {PixelQuantity::zero};
-    return {quantity, static_cast<std::size_t>(found - names.begin()), unit};
+    const std::optional<std::size_t> feature = place_of(name, names);
+    if (!feature) return {PixelQuantity::zero};
+    return {quantity, *feature, unit};
   }
 
   /// 1 where it is not told: the channel is then filtered as it is.

@@ -8,22 +8,37 @@
 namespace rpf {
 namespace {
 
+/// What a method needs, as a sum.
+enum Needs : unsigned {
+  statistics_of_pixels = 1,
+  whole_frame = 2,
+  spread_of_features = 4,
+  channels_that_do_not_vary = 8,
+};
+
 struct NamedMethod {
   const char* name;
   Method method;
+  unsigned needs;
 };
 
 /// In the order of Method.
-constexpr NamedMethod all_methods[] = {{"rpf", Method::rpf},
-                                       {"gaussian", Method::gaussian},
-                                       {"bilateral", Method::bilateral},
-                                       {"cross-bilateral", Method::cross_bilateral},
-                                       {"learned", Method::learned},
-                                       {"nlm", Method::nlm},
-                                       {"gem", Method::gem},
-                                       {"sbf", Method::sbf},
-                                       {"axis-aligned", Method::axis_aligned},
-                                       {"lightfield", Method::lightfield}};
+constexpr NamedMethod all_methods[] = {
+    {"rpf", Method::rpf, 0},
+    {"gaussian", Method::gaussian, 0},
+    {"bilateral", Method::bilateral, 0},
+    {"cross-bilateral", Method::cross_bilateral, spread_of_features},
+    {"learned", Method::learned, 0},
+    {"nlm", Method::nlm, statistics_of_pixels | whole_frame},
+    {"gem", Method::gem, statistics_of_pixels | whole_frame},
+    {"sbf", Method::sbf, statistics_of_pixels | whole_frame | spread_of_features},
+    {"axis-aligned", Method::axis_aligned, statistics_of_pixels | whole_frame | spread_of_features},
+    // Where surfaces are, not only how they differ.
+    {"lightfield", Method::lightfield, whole_frame | spread_of_features | channels_that_do_not_vary}};
+
+const NamedMethod& entry_of(Method method) { return all_methods[static_cast<std::size_t>(method)]; }
+
+bool needs(Method method, unsigned what) { return (entry_of(method).needs & what) != 0; }
 
 Settings settings_of(Method method) {
   Settings s;
@@ -44,13 +59,15 @@ std::vector<std::string> method_names() {
   return names;
 }
 
-std::string name_of(Method method) { return all_methods[static_cast<std::size_t>(method)].name; }
+std::string name_of(Method method) { return entry_of(method).name; }
 
-bool filters_pixels(Method method) {
-  return method == Method::nlm || method == Method::gem || method == Method::sbf || method == Method::axis_aligned;
-}
+bool filters_pixels(Method method) { return needs(method, statistics_of_pixels); }
 
-bool needs_whole_frame(Method method) { return filters_pixels(method) || method == Method::lightfield; }
+bool needs_whole_frame(Method method) { return needs(method, whole_frame); }
+
+bool needs_feature_spread(Method method) { return needs(method, spread_of_features); }
+
+bool keeps_constant_channels(Method method) { return needs(method, channels_that_do_not_vary); }
 
 Settings method_settings(const std::string& name) {
   for (const NamedMethod& m : all_methods)

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "frame/place_of.h"
 #include "views.h"
 
 namespace rpf {
@@ -15,25 +17,21 @@ constexpr const char* axes[] = {"X", "Y", "Z"};
 /// Nearer to the ends of the shutter's time no bend can be told from rounding.
 constexpr double least_time = 1.0 / 1024;
 
-/// The variable of that name; the count of all where there is none.
-std::size_t find(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
 class Tracks {
  public:
   Tracks(const PreparedFrame& prepared, const std::array<double, 3>& origin) : frame_(prepared.frame), origin_(origin) {
     const Variables& variables = prepared.facts.variables;
-    const auto column = [&](const std::string& name) {
-      return variables.features() + find(variables.feature_names, name);
+    time_ = place_of("time", variables.random_names);
+    // Without a time there is no opening either, and nobody reads its column.
+    const auto column = [&](const char* group, std::size_t k) {
+      const std::string name = std::string(group) + "." + axes[k];
+      return variables.features() + place_of(name, variables.feature_names).value_or(0);
     };
     for (std::size_t k = 0; k < 3; ++k) {
-      position_[k] = column(std::string("P.") + axes[k]);
-      opening_[k] = column(std::string("opening.") + axes[k]);
-      closing_[k] = column(std::string("closing.") + axes[k]);
+      position_[k] = column("P", k);
+      opening_[k] = column("opening", k);
+      closing_[k] = column("closing", k);
     }
-    time_ = find(variables.random_names, "time") + Variables::random;
-    moves_ = time_ < variables.features();
   }
 
   /// Fills RPF_TRACK floats.
@@ -57,9 +55,9 @@ class Tracks {
   void move(const float* record, std::size_t k, float* to) const {
     const double place = record[position_[k]] - origin_[k];
     to[0] = static_cast<float>(place);
-    if (!moves_) return;
+    if (!time_) return;
     const double opening = record[opening_[k]] - origin_[k], closing = record[closing_[k]] - origin_[k];
-    const double time = record[time_], travel = closing - opening;
+    const double time = record[Variables::random + *time_], travel = closing - opening;
     if (std::isnan(travel) || std::isnan(time)) return;
     const double around = time * (time - 1), off = place - opening - time * travel;
     const bool bends = -around >= least_time;
@@ -71,8 +69,7 @@ class Tracks {
   const Frame& frame_;
   std::array<double, 3> origin_;
   std::array<std::size_t, 3> position_, opening_, closing_;
-  std::size_t time_ = 0;
-  bool moves_ = false;
+  std::optional<std::size_t> time_;  ///< among the random parameters
 };
 
 }  // namespace
@@ -80,8 +77,8 @@ class Tracks {
 std::array<double, 3> middle_of_positions(const FrameFacts& facts) {
   std::array<double, 3> middle = {};
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t feature = find(facts.variables.feature_names, std::string("P.") + axes[k]);
-    if (feature < facts.feature_spread.size()) middle[k] = facts.feature_spread[feature].mean;
+    const std::optional<std::size_t> feature = place_of(std::string("P.") + axes[k], facts.variables.feature_names);
+    if (feature) middle[k] = facts.feature_spread[*feature].mean;
   }
   return middle;
 }

@@ -5,15 +5,14 @@
 namespace rpf {
 
 std::uint64_t cells_of(const kernel::rpf_light_field& field) {
-  return (std::uint64_t(field.width) * field.finer + 2 * field.margin) *
-         (std::uint64_t(field.height) * field.finer + 2 * field.margin);
+  return std::uint64_t(kernel::rpf_cell_columns(&field)) * std::uint64_t(kernel::rpf_cell_rows(&field));
 }
 
 ViewCells::ViewCells(const kernel::rpf_light_field& field)
     : finer_(field.finer),
       margin_(field.margin),
-      columns_(field.width * field.finer + 2 * field.margin),
-      rows_(field.height * field.finer + 2 * field.margin) {}
+      columns_(kernel::rpf_cell_columns(&field)),
+      rows_(kernel::rpf_cell_rows(&field)) {}
 
 std::uint32_t ViewCells::cell_of(const float* place) const {
   const auto finer = static_cast<float>(finer_);

@@ -23,12 +23,17 @@ std::string neighborhood_text(const Settings& s) {
   return text;
 }
 
+/// How values that cannot be colors are taken.
+std::string cleaning_text(const Settings& s) {
+  return fmt::format("clamp-negative={} clamp-infinite={}", s.clamp_negative, s.clamp_infinite);
+}
+
 std::string choices_text(const Settings& s) {
   return fmt::format(
       "alpha-factor={} position-scale={} redraws={} reject-second-hit={} "
-      "bias-correction={} clamp-negative={} clamp-infinite={} drop-uninformative={}",
-      s.alpha_factor, s.position_scale, s.redraws, s.reject_second_hit, s.bias_correction, s.clamp_negative,
-      s.clamp_infinite, s.drop_uninformative);
+      "bias-correction={} {} drop-uninformative={}",
+      s.alpha_factor, s.position_scale, s.redraws, s.reject_second_hit, s.bias_correction, cleaning_text(s),
+      s.drop_uninformative);
 }
 
 /// What Random Parameter Filtering was told.
@@ -57,15 +62,13 @@ void describe_fixed_weights(const Settings& settings, Metadata& m) {
   m["rpf:boxes"] = fmt::format("{}", fmt::join(settings.box_widths, ","));
   if (settings.method != Method::gaussian) m["rpf:sigmaColor"] = settings.sigma_color;
   if (settings.method == Method::cross_bilateral) m["rpf:sigmaFeature"] = settings.sigma_feature;
-  m["rpf:choices"] =
-      fmt::format("clamp-negative={} clamp-infinite={}", settings.clamp_negative, settings.clamp_infinite);
+  m["rpf:choices"] = cleaning_text(settings);
 }
 
 /// What the light field was told.
 void describe_light_field(const Settings& settings, Metadata& m) {
   m["rpf:views"] = std::int32_t{settings.views};
-  m["rpf:choices"] =
-      fmt::format("clamp-negative={} clamp-infinite={}", settings.clamp_negative, settings.clamp_infinite);
+  m["rpf:choices"] = cleaning_text(settings);
 }
 
 /// What a method that filters pixels was told.
@@ -76,8 +79,7 @@ void describe_pixel_method(const Settings& settings, Metadata& m) {
   }
   if (settings.method == Method::gem) m["rpf:gamma"] = settings.gamma;
   if (settings.method == Method::axis_aligned) m["rpf:bandwidth"] = settings.bandwidth;
-  m["rpf:choices"] =
-      fmt::format("clamp-negative={} clamp-infinite={}", settings.clamp_negative, settings.clamp_infinite);
+  m["rpf:choices"] = cleaning_text(settings);
 }
 
 }  // namespace
