@@ -1,12 +1,12 @@
 """Presets beside Open Image Denoise with noisy features, frame by frame, on the same samples.
 
-Usage: quality.py FOLDER... [--build BUILD] [--presets fast,balanced,high] [--page PAGE] [--json OUT.json]
-                  [--samples N] [--pictures DIR --of NAME,NAME]
+Usage: quality.py FOLDER... [--build BUILD] [--presets fast,balanced,high] [--samples N [--page PAGE]] [--json OUT.json]
+                  [--pictures DIR --of NAME,NAME]
 
 A FOLDER holds NAME.samples.exr or .rpf and NAME.reference.exr or .rpf (NAME-4spp.samples.exr and NAME.ref.exr are found too).
-Ratios are to Open Image Denoise, of trimmed relMSE and of FLIP: below 1 is better than it. --page replaces the table between
-<!-- quality --> and <!-- end --> there. --samples takes the first N samples of every pixel, leaves out frames that have fewer, and its table
-is <!-- quality N -->. --pictures writes DIR/NAME.png of these frames: plain mean, presets, Open Image Denoise and
+Ratios are to Open Image Denoise, of trimmed relMSE and of FLIP: below 1 is better than it. --samples takes the first N samples of
+every pixel and leaves out, and says so, frames that have fewer. --page replaces the table between <!-- quality N --> and
+<!-- end --> there. --pictures writes DIR/NAME.png of these frames: plain mean, presets, Open Image Denoise and
 reference in a row, and below the part where the mean is worst, enlarged.
 """
 import argparse
@@ -25,15 +25,16 @@ PROJECT = Path(__file__).resolve().parent.parent
 
 
 def frames_of(folders):
-    """[(name, samples, reference)], by name."""
+    """[(name, samples, reference)]: by the names of the samples' files, under those of the references."""
     frames = []
     for folder in map(Path, folders):
         for samples in sorted(folder.glob("*.samples.*")):
             name = samples.name.split(".samples.")[0]
             stems = [name, name.rsplit("-", 1)[0]]
-            found = [p for s in stems for kind in ("reference", "ref") for p in folder.glob(f"{s}.{kind}.*")]
+            found = [(s, p) for s in stems for kind in ("reference", "ref") for p in folder.glob(f"{s}.{kind}.*")]
             if found:
-                frames.append((name, samples, found[0]))
+                stem, reference = found[0]
+                frames.append((stem, samples, reference))
             else:
                 print(f"quality: {samples} has no reference beside it", file=sys.stderr)
     return frames
@@ -115,6 +116,8 @@ def main():
     parser.add_argument("--pictures", type=Path)
     parser.add_argument("--of", default="")
     options = parser.parse_args()
+    if options.page and not options.samples:
+        parser.error("--page has a table for each number of samples: give --samples too")
     build, presets = Path(options.build).resolve(), options.presets.split(",")
     python = oidn.python_with_oidn(build / "oidn")
     if not python:
@@ -126,6 +129,7 @@ def main():
             if options.samples:
                 samples = measurement.first_samples(samples, options.samples)
                 if not samples:
+                    print(f"quality: {name} has fewer than {options.samples} samples in a pixel, and is left out", file=sys.stderr)
                     continue
             results[name] = measurement.frame(name, samples, reference)
             print(table({name: results[name]}, presets)[2], flush=True)
@@ -134,7 +138,7 @@ def main():
     if options.json:
         Path(options.json).write_text(json.dumps(results, indent=1))
     if options.page:
-        write_table(options.page, f"quality {options.samples}" if options.samples else "quality", rows)
+        write_table(options.page, f"quality {options.samples}", rows)
     return 0
 
 

@@ -1,11 +1,11 @@
 """Random scenes to train on: samples by Mitsuba 3, and a reference of each.
 
 Usage: generate.py --out DIR --first SEED --count N [--size 128x128] [--spp 8] [--reference-spp 180]
-                   [--stratified-share 0.33] [--processes CORES]
+                   [--stratified-share 0.33] [--processes CORES] [--frames CACHE]
 
 Writes SEED.samples.rpf and SEED.reference.rpf (one sample a pixel: the mean), both raw sample files (docs/file-format.md)
-that `rpf` reads. Files appear as a whole, those that are there are skipped: stop it at any time. A seed gives the same scene
-on every run.
+that `rpf` reads. Files appear as a whole, and scenes are skipped whose files are there or that to_frames.py has turned into
+CACHE: stop it at any time. A seed gives the same scene on every run.
 """
 import argparse
 import gc
@@ -51,6 +51,11 @@ def work(task):
         return f"{task[1]}: left out: {error}"
 
 
+def is_made(seed, options):
+    turned = options.frames and (options.frames / f"{seed}.samples.npy").exists()
+    return turned or (options.out / f"{seed}.samples.rpf").exists()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, required=True)
@@ -61,9 +66,10 @@ def main():
     parser.add_argument("--reference-spp", type=int, default=180)
     parser.add_argument("--stratified-share", type=float, default=0.33)
     parser.add_argument("--processes", type=int, default=os.cpu_count())
+    parser.add_argument("--frames", type=Path)
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
-    seeds = [s for s in range(options.first, options.first + options.count) if not (options.out / f"{s}.samples.rpf").exists()]
+    seeds = [s for s in range(options.first, options.first + options.count) if not is_made(s, options)]
     context = multiprocessing.get_context("spawn")
     with context.Pool(options.processes, start_process, maxtasksperchild=SCENES_A_PROCESS) as pool:
         for line in pool.imap_unordered(work, [(options.out, seed, options) for seed in seeds]):
