@@ -3,7 +3,7 @@
 Usage: adaptive.py [--build BUILD] [--scenes dof,soft-shadow] [--counts 8,16,32] [--seeds 2] [--preset balanced] [--page docs/explain.md]
 
 Trimmed relMSE against a reference, means over the seeds. "Possible": what the best counts would save of the plain mean's error if each
-pixel's variance were known, from 64 samples a pixel. Errors are kept in BUILD/adaptive; a run that was stopped goes on where it was.
+pixel's variance were known, from 256 samples a pixel. Errors are kept in BUILD/adaptive; a run that was stopped goes on where it was.
 --page replaces the table between <!-- adaptive --> and <!-- end --> there.
 """
 import argparse
@@ -17,7 +17,7 @@ from marked_page import write_table
 from raw_samples import read_samples  # pylint: disable=no-name-in-module
 
 PROJECT = Path(__file__).resolve().parent.parent
-SIZE, REFERENCE_SAMPLES, FIRST = "240x135", 1024, 4
+SIZE, REFERENCE_SAMPLES, VARIANCE_SAMPLES, FIRST = "240x135", 1024, 256, 4
 MEAN = ("--boxes", "none")
 
 
@@ -62,7 +62,7 @@ class Adaptive:
     def possible(self, scene):
         """Part of the plain mean's trimmed error that is saved where counts follow the root of the true variance."""
         raw = self.work / "many.rpf"
-        _, counts, channels = read_samples(self.scene(scene, raw, "--spp", 64, "--seed", 9))
+        _, counts, channels = read_samples(self.scene(scene, raw, "--spp", VARIANCE_SAMPLES, "--seed", 9))
         raw.unlink()
         colors = np.stack([channels[c].reshape(counts.size, -1) for c in "RGB"]).astype(float)
         variance = (colors.var(-1, ddof=1) / (colors.mean(-1) ** 2 + 0.01)).mean(0)
