@@ -14,6 +14,10 @@ struct LargestDifference {
   int x = 0, y = 0;       ///< the first such pixel, in the reference's coordinates
 };
 
+/// In relMSE, (a - b)^2 / (b^2 + floor), keeps black pixels of the reference b from deciding alone; the unit is that of
+/// radiance squared.
+constexpr double relmse_floor = 0.01;
+
 /// Errors of an image a against its reference b, over R, G and B of all pixels. The first block is about linear
 /// radiance; the second about what a display shows: both images clamped to [0, 1], then the sRGB transfer function;
 /// the third about what it shows of them at any exposure, behind the ACES tone curve.

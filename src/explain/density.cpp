@@ -9,6 +9,7 @@
 
 #include "frame/sums_around.h"
 #include "rpf/error.h"
+#include "rpf/metrics.h"
 
 namespace rpf {
 namespace {
@@ -22,9 +23,6 @@ constexpr int near_pixel = 1, around = 3;
 
 /// Part of the noise around a pixel that there is at least.
 constexpr double least_part = 0.01;
-
-/// Of relMSE (rpf compare), in the unit of the radiance squared.
-constexpr double least_brightness = 0.01;
 
 /// What is known of one color: sums over the pixels.
 struct Noise {
@@ -71,7 +69,7 @@ std::array<Values, N> relative_variances(const SampleBuffer& frame, const std::a
       const Values means = sums(noise.mean), pixels = sums(noise.pixels);
       for (std::size_t p = 0; p < relative[i].size(); ++p) {
         const double brightness = means[p] / std::max(pixels[p], 1.0);
-        relative[i][p] += squares[p] / std::max(free[p], 1.0) / (brightness * brightness + least_brightness) / 3;
+        relative[i][p] += squares[p] / std::max(free[p], 1.0) / (brightness * brightness + relmse_floor) / 3;
       }
     }
   }

@@ -5,13 +5,11 @@
 
 #include "explain/blur.h"
 #include "frame/place_of.h"
+#include "rpf/metrics.h"
 #include "rpf_math.h"
 
 namespace rpf {
 namespace {
-
-/// Errors are relative to light of at least this square, as in relMSE.
-constexpr double least_square = 0.01;
 
 /// Of `count` values that are `stride` apart, in the unit of Attribution; not biased.
 float variance_of(const float* values, std::uint32_t count, std::size_t stride) {
@@ -151,7 +149,7 @@ double Layers::estimate_noise(std::size_t pixel, double variance, double kept) {
   const double remaining = variance / value(pixel, neighborhood_ + 2) + kept / samples;
   double square = 0;
   for (std::size_t c = 3; c < 6; ++c) square += static_cast<double>(value(pixel, c)) * value(pixel, c) / 3;
-  const double relative = std::sqrt(remaining / (square + least_square));
+  const double relative = std::sqrt(remaining / (square + relmse_floor));
   const double values[] = {std::sqrt(variance / samples), std::sqrt(remaining), relative};
   std::copy(std::begin(values), std::end(values), noise + 1);
   return relative;

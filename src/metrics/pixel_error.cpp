@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rpf/metrics.h"
+
 namespace rpf::metrics {
 namespace {
 
-constexpr double relmse_floor = 0.01;  ///< keeps black pixels of the reference from deciding alone
 constexpr std::size_t one_trimmed_of = 1000;
 
 double square(double x) { return x * x; }

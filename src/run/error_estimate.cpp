@@ -9,6 +9,7 @@
 #include "rpf/error.h"
 #include "rpf/io.h"
 #include "rpf/methods.h"
+#include "rpf/metrics.h"
 #include "run/driver.h"
 #include "run/memory.h"
 
@@ -17,9 +18,6 @@ namespace {
 
 /// Pixels to each side over which an estimate is averaged: that of one pixel knows next to nothing.
 constexpr int around = 4;
-
-/// Of relMSE (rpf compare), in the unit of the radiance squared.
-constexpr double least_brightness = 0.01;
 
 constexpr std::size_t colors = 3;
 
@@ -109,7 +107,7 @@ Parts parts_of(const Half& a, const Half& b, const Image& image, std::size_t pix
   Parts parts;
   for (std::size_t c = 0; c < colors; ++c) {
     const double fa = a.filtered.pixel(pixel)[c], fb = b.filtered.pixel(pixel)[c], color = image.pixel(pixel)[c];
-    const double brightness = colors * (color * color + least_brightness);
+    const double brightness = colors * (color * color + relmse_floor);
     parts.variance += (fa - fb) * (fa - fb) / 4 / brightness;
     parts.bias += (fa - a.mean.pixel(pixel)[c]) * (fb - b.mean.pixel(pixel)[c]) / brightness;
   }

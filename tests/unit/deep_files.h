@@ -114,11 +114,6 @@ inline rpf::SampleBuffer make_buffer(const rpf::Window& window, const Counts& co
   return samples;
 }
 
-/// Bit for bit, so that NaN equals NaN and 0 is not -0.
-inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0);
-}
-
 /// The error that `work` must throw, as "<kind> <text>".
 inline std::string error_of(const std::function<void()>& work) {
   try {

@@ -10,15 +10,12 @@
 #include "rpf/error.h"
 #include "rpf/methods.h"
 #include "run/driver.h"
+#include "same_bits.h"
 
 namespace rpf::test {
 namespace {
 
 constexpr std::uint64_t a_row = 1;  ///< bytes: less than any row
-
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0);
-}
 
 std::string first_difference(const Image& found, const Image& expected) {
   if (found.channels != expected.channels || found.pixels.size() != expected.pixels.size()) return "another shape";

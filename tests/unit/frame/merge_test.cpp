@@ -5,6 +5,7 @@
 #include "io/row_pieces.h"
 #include "rpf/filter.h"
 #include "rpf/rows.h"
+#include "same_bits.h"
 #include "temporary_folder.h"
 #include "test_frames.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 using deep_files::error_of;
 using deep_files::expect_error;
-using deep_files::same_bits;
+using rpf::test::same_bits;
 using test::defocused_edge;
 
 SampleBuffer frame(std::uint32_t seed, int samples = 2) {

@@ -6,6 +6,7 @@
 #include "deep_files.h"
 #include "rpf/io.h"
 #include "rpf/outputs.h"
+#include "same_bits.h"
 #include "temporary_folder.h"
 
 namespace {
@@ -14,6 +15,7 @@ using namespace deep_files;
 using rpf::ErrorKind;
 using rpf::SampleBuffer;
 using rpf::Window;
+using rpf::test::same_bits;
 
 // Values by their bits: quiet and signaling NaN with a payload, both zeros, both infinities, the least and largest.
 void put_special_values(SampleBuffer& samples) {

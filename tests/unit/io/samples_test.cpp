@@ -4,6 +4,7 @@
 #include "deep_files.h"
 #include "rpf/io.h"
 #include "rpf/rows.h"
+#include "same_bits.h"
 #include "temporary_folder.h"
 
 namespace {
@@ -11,6 +12,7 @@ namespace {
 using namespace deep_files;
 using rpf::SampleBuffer;
 using rpf::Window;
+using rpf::test::same_bits;
 
 void expect_round_trip(const SampleBuffer& samples) {
   const TemporaryFolder folder;

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "every_scene.h"
 #include "rpf/error.h"
 #include "rpf/scene.h"
+#include "same_bits.h"
 #include "scene/renderer.h"
 
 namespace {
@@ -26,8 +26,7 @@ SceneOptions small(int samples = 3) {
 }
 
 bool same_bits(const SampleBuffer& a, const SampleBuffer& b) {
-  return a.first_sample == b.first_sample && a.values.size() == b.values.size() &&
-         std::memcmp(a.values.data(), b.values.data(), a.values.size() * sizeof(float)) == 0;
+  return a.first_sample == b.first_sample && rpf::test::same_bits(a.values, b.values);
 }
 
 /// All values of a channel.
