@@ -9,6 +9,7 @@
 #include "cli/environment.h"
 #include "cli/filter_options.h"
 #include "cli/measuring.h"
+#include "cli/needs.h"
 #include "cli/numbers.h"
 #include "cli/print.h"
 #include "report/heat_map.h"
@@ -101,13 +102,7 @@ void check_memory(const Options& options, std::uint64_t limit) {
   // Side by side all of them are there twice, and as big as the picture once more.
   const bool writes = !options.side_by_side.empty() || !options.diff.empty();
   const std::uint64_t pictures = writes ? 3 * options.files.size() * pixels * picture : 0;
-  const std::uint64_t need = images + std::max(comparing_bytes(pixels), pictures);
-  if (need > limit)
-    throw Error(
-        ErrorKind::memory,
-        fmt::format("compare: {} images need {:.0f} MB of memory, the limit is {:.0f} MB; raise "
-                    "--max-memory, or compare fewer or smaller ones",
-                    options.files.size(), static_cast<double>(need) / megabyte, static_cast<double>(limit) / megabyte));
+  check_images_need("compare", options.files.size(), images + std::max(comparing_bytes(pixels), pictures), limit);
 }
 
 std::vector<PlannedOutput> planned_outputs(const Options& options) {

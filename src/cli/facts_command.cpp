@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/facts_file.h"
+#include "cli/filter_input.h"
 #include "cli/filter_options.h"
 #include "cli/needs.h"
 #include "cli/print.h"
@@ -21,7 +22,7 @@ int run(const FilterOptions& options) {
   SampleReadOptions reading = read_options_of(options.map, settings.max_memory);
   const SampleFileInfo info = inspect_samples(options.input, reading);
   reading.slots = needed_layout(info, settings).slots;
-  check_outputs({{options.output, OutputKind::page}}, {options.input});
+  check_outputs({{options.output, OutputKind::page}}, files_read(options));
   const auto rows = open_sample_rows(options.input, reading);
   FactsFile file;
   file.facts = with_progress(options.quiet ? "never" : options.progress,

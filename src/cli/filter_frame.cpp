@@ -163,7 +163,7 @@ OpenFrame open_frame(const FilterOptions& options) {
   else if (options.rows.empty() && options.facts.empty())
     frame.need = check_streamed(frame, frame.reading, tell);
   if (frame.settings.crop) check_crop(*frame.settings.crop, info.data_window);
-  check_outputs(planned_outputs(options, frame.input, frame.settings), {options.input});
+  check_outputs(planned_outputs(options, frame.input, frame.settings), files_read(options));
   const SampleFileInfo stored = as_image(info, options.output);
   check_in_place(stored, options.output);
   if (!options.quiet) tell_dropped(stored);

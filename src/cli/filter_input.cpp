@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/method_options.h"
 #include "rpf/error.h"
+#include "rpf/presets.h"
 
 namespace rpf::cli {
 namespace {
@@ -36,6 +39,15 @@ FilterInput open_input(const std::string& path, Method method, const SampleReadO
   const std::uint64_t samples =
       header.data_window.pixel_count() * (layout.size() * sizeof(float) + sizeof(std::uint32_t));
   return {info_of(path, header, layout), image_bytes(header) + samples};
+}
+
+std::vector<std::string> files_read(const FilterOptions& options) {
+  std::vector<std::string> files{options.input};
+  const std::vector<PresetInfo> known = presets();
+  const auto is_it = [&](const PresetInfo& preset) { return preset.name == options.settings.model; };
+  if (std::none_of(known.begin(), known.end(), is_it)) files.push_back(options.settings.model);
+  if (!options.facts.empty()) files.push_back(options.facts);
+  return files;
 }
 
 SampleBuffer read_input(const FilterInput& input, const SampleReadOptions& options) {

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "cli/filter_options.h"
 #include "rpf/io.h"
 #include "rpf/settings.h"
 
@@ -18,6 +20,9 @@ struct FilterInput {
 
 /// Reads the header of a sample file or an image. Throws Error(input).
 FilterInput open_input(const std::string& path, Method method, const SampleReadOptions& options);
+
+/// All files that filtering with these options reads: the input, the network where it is a file, facts of the frame.
+std::vector<std::string> files_read(const FilterOptions& options);
 
 /// Reads the rest of it. Throws Error(input), Error(memory).
 SampleBuffer read_input(const FilterInput& input, const SampleReadOptions& options);

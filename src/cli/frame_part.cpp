@@ -121,6 +121,9 @@ Image joined(const std::vector<std::string>& paths) {
   const Window frame = window_of(frame_attribute, text_in(whole, frame_attribute));
   parts.front().image.data_window = whole.data_window;
   check_rows(parts, frame);
+  std::size_t values = whole.pixels.size();
+  for (const Part& part : parts) values += part.image.pixels.size();
+  whole.pixels.reserve(values);  // the parts' memory once more, not twice
   for (std::size_t i = 1; i < parts.size(); ++i) {
     std::vector<float>& pixels = parts[i].image.pixels;
     whole.pixels.insert(whole.pixels.end(), pixels.begin(), pixels.end());

@@ -29,6 +29,15 @@ void check_need(const SampleFileInfo& info, const char* doing, std::uint64_t nee
                             static_cast<double>(need) / megabyte, static_cast<double>(limit) / megabyte, help));
 }
 
+void check_images_need(const char* command, std::size_t images, std::uint64_t need, std::uint64_t limit) {
+  if (need > limit)
+    throw Error(ErrorKind::memory,
+                fmt::format("{}: {} images need {:.0f} MB of memory, the limit is {:.0f} MB; raise --max-memory, or {} "
+                            "fewer or smaller ones",
+                            command, images, static_cast<double>(need) / megabyte,
+                            static_cast<double>(limit) / megabyte, command));
+}
+
 std::string text_of(const RowsMemory& need) {
   const double need_mb = static_cast<double>(need.bytes) / megabyte;
   if (need.rows_held == 0)

@@ -26,6 +26,9 @@ constexpr const char* fewer_channels = ", lower --threads or leave channels out 
 void check_need(const SampleFileInfo& info, const char* doing, std::uint64_t need, std::uint64_t limit,
                 const char* help = fewer_channels);
 
+/// The same of images that a command reads, "compare" say.
+void check_images_need(const char* command, std::size_t images, std::uint64_t need, std::uint64_t limit);
+
 /// "rows are read as they are needed, ..."
 std::string text_of(const RowsMemory& need);
 

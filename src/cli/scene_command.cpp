@@ -62,7 +62,23 @@ PlannedOutput planned_output(const Options& o) {
 
 std::string progress_mode(const Options& o) { return o.quiet ? "never" : o.progress; }
 
+/// More than the machine has: refused before anything is rendered.
+void check_budget(const Options& o, std::uint64_t need) {
+  const double need_mb = static_cast<double>(need) / megabyte;
+  const double limit_mb = static_cast<double>(memory_limit(o.max_memory_mb)) / megabyte;
+  if (need_mb > limit_mb)
+    throw Error(ErrorKind::memory,
+                fmt::format("scene: rendering takes {:.0f} MB of memory, the limit is {:.0f} MB; choose a "
+                            "smaller {}--size",
+                            need_mb, limit_mb, o.reference > 0 ? "" : "--spp or "));
+}
+
+std::uint64_t pixels_of(const SceneOptions& scene) {
+  return static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
+}
+
 void write_reference_image(const Options& o, const SceneOptions& scene) {
+  check_budget(o, pixels_of(scene) * (2 * 3 * sizeof(float) + sizeof(double)));  // again when written; their errors
   const Image image =
       with_progress(progress_mode(o), [&](const Control& c) { return render_reference(o.name, scene, c); });
   const SignalGuard guard;  // a signal now waits until the file is whole
@@ -72,20 +88,8 @@ void write_reference_image(const Options& o, const SceneOptions& scene) {
         scene.samples, std::get<float>(image.metadata.at(residual_attribute)));
 }
 
-/// More than the machine has: refused before anything is rendered.
-void check_budget(const Options& o, std::uint64_t need) {
-  const double need_mb = static_cast<double>(need) / megabyte;
-  const double limit_mb = static_cast<double>(memory_limit(o.max_memory_mb)) / megabyte;
-  if (need_mb > limit_mb)
-    throw Error(ErrorKind::memory,
-                fmt::format("scene: rendering takes {:.0f} MB of memory, the limit is {:.0f} MB; choose a "
-                            "smaller --spp or --size",
-                            need_mb, limit_mb));
-}
-
 void write_sample_file(const Options& o, const SceneOptions& scene) {
-  const std::uint64_t counts =
-      sizeof(std::uint32_t) * static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
+  const std::uint64_t counts = pixels_of(scene) * sizeof(std::uint32_t);
   check_budget(o, counts);
   const auto rows = open_scene_rows(o.name, scene);
   check_budget(o, counts + write_rows_memory(*rows));

@@ -9,11 +9,13 @@
 #include <optional>
 
 #include "cli/filter_frame.h"
+#include "cli/filter_input.h"
 #include "cli/frame_log.h"
 #include "cli/frame_numbers.h"
 #include "cli/print.h"
 #include "cli/signals.h"
 #include "rpf/error.h"
+#include "rpf/outputs.h"
 
 namespace rpf::cli {
 namespace {
@@ -72,6 +74,19 @@ std::vector<Task> tasks_of(const FilterOptions& filter, const SequenceOptions& o
   return tasks;
 }
 
+/// The path itself. Throws Error(usage) where it is a file of a frame, which lines behind its end would spoil.
+const std::string& log_beside(const std::vector<Task>& tasks, const std::string& log) {
+  for (const Task& task : tasks) {
+    std::vector<std::string> files = files_read(task.options);
+    files.insert(files.end(), {task.options.output, task.options.aov, task.options.report});
+    for (const std::string& file : files)
+      if (!log.empty() && !file.empty() && is_same_file(log, file))
+        throw Error(ErrorKind::usage,
+                    fmt::format("--log-json \"{}\" is \"{}\" of frame {}; name another file", log, file, task.name));
+  }
+  return log;
+}
+
 bool was_made(const OpenFrame& frame) {
   const FilterOptions& options = frame.options;
   if (options.output.empty()) return false;
@@ -95,7 +110,7 @@ bool may_go_on(int exit_code) {
 class Sequence {
  public:
   Sequence(const FilterOptions& filter, const SequenceOptions& options)
-      : options_(options), tasks_(tasks_of(filter, options)), log_(options.log, filter.quiet) {}
+      : options_(options), tasks_(tasks_of(filter, options)), log_(log_beside(tasks_, options.log), filter.quiet) {}
 
   int run() {
     std::size_t done = 0;

@@ -10,6 +10,10 @@ import unittest
 import zlib
 from pathlib import Path
 
+import numpy as np
+
+from small_files import write_exr
+
 RPF, PROJECT = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 EXAMPLE = PROJECT / "examples" / "dof-spheres.samples.exr"
 SANITIZED = b"__asan_init" in RPF.read_bytes()
@@ -60,10 +64,10 @@ class Memory(unittest.TestCase):
     def expect_refusal(self, arguments, **environment):
         code, text, peak = self.run_rpf(*arguments, **environment)
         self.assertEqual(code, 6, text)
-        self.assertRegex(text, r"needs? [\d.]+ MB|take [\d.]+ MB")
+        self.assertRegex(text, r"needs? [\d.]+ MB|takes? [\d.]+ MB")
         if not SANITIZED:
             self.assertLess(peak, PROGRAM_MB)
-        return float(re.search(r"(?:needs?|take) ([\d.]+) MB", text)[1])
+        return float(re.search(r"(?:needs?|takes?) ([\d.]+) MB", text)[1])
 
     def commands(self):
         output = self.folder / "out.exr"
@@ -77,11 +81,19 @@ class Memory(unittest.TestCase):
                 "compare": ["compare", self.picture, self.picture],
                 "side by side": ["compare", self.picture, self.picture, self.picture, "--side-by-side", self.folder / "out.png"],
                 "convert": ["convert", self.samples, "-o", output],
+                "join": ["join", self.part(), "-o", output],
                 "merge": ["merge", self.samples, other, "-o", output],
                 "density": ["density", self.samples, "-o", output],
                 "adapt": ["adapt", self.samples, "--spp", "6", "--", *rounds],
                 "report": ["report", self.samples, self.samples.with_name("mean.exr"), self.samples.with_name("mean.exr"), "-o", self.folder / "page.html", "-q"],
                 "explain": ["explain", self.samples, "-o", self.folder / "explained", "--box", "3", "-q"]}
+
+    def part(self):
+        """All rows of a frame, as rpf --rows marks them."""
+        path, zeros = self.folder / "part.exr", np.zeros((600, 1000), np.float32)
+        marks = [("rpf:rows", "string", b"0-599"), ("rpf:frameWindow", "string", b"1000x600+0+0")]
+        write_exr(path, {channel: zeros for channel in "RGB"}, attributes=marks)
+        return path
 
     def test_every_command_knows_what_it_needs(self):
         """Refused with what it needs, by option and by environment, before that is taken; and it takes no more."""
@@ -119,8 +131,15 @@ class Memory(unittest.TestCase):
 
     def test_pictures_beside_the_samples(self):
         self.assertEqual(self.run_rpf("scene", "dof", "--size", "8x6", "--spp", "4", "-q", "-o", self.samples)[0], 0)
-        for arguments in (["scene", "dof", "--density", self.header], ["density", self.samples, "--error", self.header]):
+        for arguments in (["scene", "dof", "--density", self.header], ["density", self.samples, "--error", self.header], ["join", self.header]):
             self.expect_refusal([*arguments, "-o", self.folder / "out.exr", "--max-memory", "1000"])
+
+    def test_scenes(self):
+        for kind in (["--spp", "1"], ["--reference", "2"]):
+            with self.subTest(kind):
+                arguments = ["scene", "dof", "--size", "3000x2000", *kind, "-o", self.folder / "out.exr"]
+                need = self.expect_refusal([*arguments, "--max-memory", HEADERS_MB])
+                self.assertEqual(self.expect_refusal(arguments, RPF_MAX_MEMORY_MB=str(HEADERS_MB)), need)
 
     def test_a_header_that_promises_more_than_there_is(self):
         arguments = ["--method", "bilateral", self.header, "-o", self.folder / "out.exr"]

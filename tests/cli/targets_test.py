@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from command_case import EXAMPLE, RPF, CommandCase
+from command_case import EXAMPLE, PROJECT, RPF, CommandCase
 from small_files import attribute, frame, write_exr, write_raw, write_tiff  # noqa: F401
 
 FAST = ["--backend", "cpu", "--boxes", "3", "--max-samples", "20"]
@@ -81,6 +81,27 @@ class TargetsTest(CommandCase):
         self.assertNotEqual(run("bench", "sweep", plan, "-o", plan).returncode, 0)
         self.assertIn("settings", plan.read_text())
 
+    def test_networks_and_facts_stay(self):
+        network, facts = self.folder / "network.exr", self.folder / "facts.exr"
+        shutil.copy(PROJECT / "networks" / "fast.rpfnet", network)
+        learned = ["--backend", "cpu", "--model", network]
+        self.expect_refused(2, "would be lost", arguments=[*learned, self.samples, "-o", network])
+        self.expect_refused(2, "would be lost", arguments=[*learned, self.samples, "-o", self.output, "--aov", self.link("l.exr", "network.exr")])
+        self.expect_refused(2, "would be lost", arguments=["facts", self.samples, "-o", network, *learned])
+        self.expect(run("facts", self.samples, "-o", facts, *FAST), 0)
+        self.expect_refused(2, "would be lost", arguments=[*FAST, self.samples, "-o", facts, "--facts", facts])
+
+    def test_lines_of_a_log_go_into_no_file_of_a_frame(self):
+        network = self.folder / "network.rpfnet"
+        shutil.copy(PROJECT / "networks" / "fast.rpfnet", network)
+        first, second = self.folder / "f.1.rpf", self.folder / "f.2.rpf"
+        for frame_of in (first, second):
+            shutil.copy(self.samples, frame_of)
+        frames = [self.folder / "f.#.rpf", "-o", self.folder / "o.#.exr", "--aov", self.folder / "a.#.exr", "--model", network, "--backend", "cpu"]
+        for log in (first, second, self.link("l", "f.2.rpf"), network, self.folder / "o.2.exr", self.folder / "a.1.exr"):
+            self.expect_refused(2, "--log-json", "name another file", arguments=[*frames, "--log-json", log])
+        self.expect_refused(2, "--log-json", arguments=[*FAST, self.samples, "-o", self.output, "--log-json", self.samples])
+
     def test_samples_are_not_replaced_by_their_picture(self):
         deep = self.folder / "s.exr"
         shutil.copy(EXAMPLE, deep)
@@ -104,9 +125,10 @@ class TargetsTest(CommandCase):
 
     def test_links_that_lead_nowhere_are_refused_by_every_writer(self):
         lost, circle = self.link("lost.exr", "missing/x.exr"), self.link("circle.exr", "circle.exr")
-        for writer in ([*FAST, self.samples], ["convert", self.samples], ["scene", "dof", "--size", "8x6"], ["merge", self.samples, EXAMPLE]):
-            if writer[0] == "merge":
-                continue  # two renderings of one frame: see sample_files_test.py
+        second = self.folder / "second.rpf"
+        shutil.copy(self.samples, second)
+        for writer in ([*FAST, self.samples], ["convert", self.samples], ["scene", "dof", "--size", "8x6"], ["merge", self.samples, second],
+                       ["density", self.samples], ["facts", self.samples], ["join", self.samples], ["report", self.samples, self.samples]):
             self.expect_refused(4, "missing/x.exr", "make the folder", arguments=[*writer, "-o", lost])
             self.expect_refused(4, "symbolic links", arguments=[*writer, "-o", circle])
 

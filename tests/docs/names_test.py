@@ -41,11 +41,18 @@ def all_tests():
     return {test["name"] for test in listed} | set(re.findall(r"NAME ([\w.]+) ", (PROJECT / "tests/CMakeLists.txt").read_text())), labels
 
 
+def parts_of_tests():
+    """Functions of Python's tests, SUITE.NAME of those in C++."""
+    text = "".join(file.read_text(encoding="utf-8") for file in [*TESTS, *(PROJECT / "tests").rglob("*.cpp")])
+    return {*re.findall(r"def (test_\w+)", text), *map(".".join, re.findall(r"^(?:TEST|TEST_F|TEST_P|RC_GTEST_PROP)\((\w+), (\w+)[,)]", text, re.M))}
+
+
 class Known:
     options = all_options()
     tests, labels = all_tests()
     presets = set(re.findall(r'"name": "(\w+)"', (PROJECT / "CMakePresets.json").read_text()))
     read = set(re.findall(r"\b([\w-]+\.md)\b", "".join(file.read_text(encoding="utf-8") for file in TESTS)))
+    parts = parts_of_tests()
     deeds = set(re.findall(r"^  (\w+)\)", (PROJECT / "run").read_text(), re.M))
 
 
@@ -77,6 +84,12 @@ def wrong_files(text):
     """Paths into the project that lead to nothing; a source's ending may be left out."""
     paths = re.findall(rf"(?<![\w./-])((?:{FOLDERS})/[\w./*-]+)", text)
     return [path for path in paths if not any(list(PROJECT.glob(path.rstrip("/.") + ending)) for ending in ("", ".h", ".cpp"))]
+
+
+def wrong_parts(text):
+    """Names of parts of tests, `test_a_file...` or `Suite.Name`, that there are not. Three dots: only how they begin."""
+    known = re.fullmatch(r"(test_\w+|[A-Z]\w+\.[A-Z]\w+)(\.\.\.)?", text)
+    return [text] if known and not any(name.startswith(known[1]) if known[2] else name == known[1] for name in Known.parts) else []
 
 
 def is_read(place, by):
@@ -118,7 +131,7 @@ def wrong_in(place, page):
     found += [f"{place}: an indented block, fence it: {line}" for line in INDENTED.findall(without_blocks(page))]
     lines = [line for block in blocks(page) if block.language in ("sh", "text") for line in re.sub(r"(\\\n|\n  +)", " ", block.text).splitlines()]
     for text in [*lines, *spans(page)]:
-        wrong = wrong_files(text)
+        wrong = wrong_files(text) + wrong_parts(text)
         if re.match(r"(build/release/)?rpf |--[a-z]", text):
             wrong += wrong_options(text)
         if re.match(r"(\./run|cmake|ctest) ", text):
@@ -138,7 +151,8 @@ class NamesTest(unittest.TestCase):
                                 ("`rpf info --preset\nfast`", "--preset"), ("```text\nrpf merge A\n    [--seed]\n```\n", "--seed"),
                                 ("<!-- not run: needs Slurm -->\n```sh\nrpf --frame 3\n```\n", "--frame"), ("`./run dmo`", "dmo"), ("`ctest --preset relase`", "relase"),
                                 ("`ctest -L orcale`", "orcale"), ("`./run test -R Nowhere`", "Nowhere"), ("`tests/docs/missing.py`", "tests/docs/missing.py"),
-                                ("(test `nowhere`)", "no test nowhere"), ("`python3 bench/missing.py`", "bench/missing.py")):
+                                ("(test `nowhere`)", "no test nowhere"), ("`test_nowhere_...`", "test_nowhere_"), ("`Outputs.Nowhere`", "Outputs.Nowhere"),
+                                ("`python3 bench/missing.py`", "bench/missing.py")):
             self.assertIn(complaint, " ".join(wrong_in("page", page)), page)
 
     def test_cases_are_as_many_as_pages_say(self):
