@@ -23,9 +23,10 @@ __kernel void see_rows(const rpf_light_field field, const rpf_view view, __globa
   cells.first = first;
   cells.place = place;
   cells.sample = sample;
+  const rpf_view_sums to = {colors, means, sums, (size_t)field.width * (size_t)field.height, field.carried};
   const int parts = (field.width + RPF_RUN_PIXELS - 1) / RPF_RUN_PIXELS;
   for (int i = (int)get_global_id(0); i < parts * (end - row); i += (int)get_global_size(0)) {
     const int x0 = i % parts * RPF_RUN_PIXELS, x1 = min(x0 + RPF_RUN_PIXELS, field.width);
-    rpf_see_run(&field, &view, &cells, ends, colors, means, sums, row + i / parts, x0, x1);
+    rpf_see_run(&field, &view, &cells, ends, &to, row + i / parts, x0, x1);
   }
 }

@@ -4,20 +4,16 @@
 #define RPF_VIEWS_H
 // NOLINTBEGIN(modernize-*, cppcoreguidelines-*): this is OpenCL C too
 
-#include "numeric.h"
+#include "view_sums.h"
 
 #ifdef __cplusplus
 namespace rpf::kernel {
-#define RPF_SHARED
-#else
-#define RPF_SHARED __global
 #endif
 
 #define RPF_TRACK 10  // floats a sample: start 3, travel 3, bend 3 of (11.1), 1 where the ray left the scene
 #define RPF_ENDS 6    // floats a sample: x, y, shift as the shutter opens, and as it closes, from the lens's center
 #define RPF_PLACE 3   // floats a sample: x, y, depth in a view
 #define RPF_MOST_SEEN 32
-#define RPF_NOBODY 0xFFFFFFFFu
 #define RPF_FARTHEST 3e38f  // depth of what a ray saw that left the scene
 
 // The camera. A row of four is what stands before a position's coordinates, and 1.
@@ -218,24 +214,13 @@ RPF_INLINE uint rpf_see(const rpf_light_field* field, const rpf_cells* cells, co
   return seen.near[nearest].sample;
 }
 
-// What each pixel x0 .. x1 - 1 of row y sees goes to its sums, [color or number of views][pixel]: how far it is off
-// from the pixel's mean, so that equal colors stay what they are.
+// Pixels x0 .. x1 - 1 of row y take what they see.
 RPF_INLINE void rpf_see_run(const rpf_light_field* field, const rpf_view* view, const rpf_cells* cells,
-                            const RPF_SHARED float* ends, const RPF_SHARED float* colors, const RPF_SHARED float* means,
-                            RPF_SHARED float* sums, int y, int x0, int x1) {
-  const size_t stride = (size_t)field->width * (size_t)field->height;
-  for (int x = x0; x < x1; ++x) {
-    const size_t pixel = (size_t)y * (size_t)field->width + (size_t)x;
-    const uint sample = rpf_see(field, cells, ends, (float)x + view->x, (float)y + view->y);
-    if (sample == RPF_NOBODY) continue;
-    for (uint c = 0; c < field->carried; ++c)
-      sums[c * stride + pixel] += colors[(size_t)sample * field->carried + c] - means[c * stride + pixel];
-    sums[field->carried * stride + pixel] += 1.0f;
-  }
+                            const RPF_SHARED float* ends, const rpf_view_sums* sums, int y, int x0, int x1) {
+  for (int x = x0; x < x1; ++x)
+    rpf_add_view(sums, (size_t)y * (size_t)field->width + (size_t)x,
+                 rpf_see(field, cells, ends, (float)x + view->x, (float)y + view->y));
 }
-
-// (11.6).
-RPF_INLINE float rpf_mean_of_views(float mean, float sum, float seen) { return seen > 0.0f ? mean + sum / seen : mean; }
 
 #ifdef __cplusplus
 }  // namespace rpf::kernel

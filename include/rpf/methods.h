@@ -9,7 +9,7 @@
 namespace rpf {
 
 /// The names of the methods, in the order of Method: "rpf", "gaussian", "bilateral", "cross-bilateral", "learned",
-/// "nlm", "gem", "sbf", "axis-aligned", "lightfield".
+/// "nlm", "gem", "sbf", "axis-aligned", "lightfield", "multidim".
 std::vector<std::string> method_names();
 std::string name_of(Method method);
 
@@ -17,7 +17,8 @@ std::string name_of(Method method);
 /// and needs two samples in a pixel (all but axis-aligned).
 bool filters_pixels(Method method);
 
-/// Whether a method can be had of the whole frame only, not of rows of it: those that filter pixels, and lightfield.
+/// Whether a method can be had of the whole frame only, not of rows of it: those that filter pixels, lightfield
+/// and multidim.
 bool needs_whole_frame(Method method);
 
 /// Whether a method has to know how far each feature spreads over the frame.

@@ -34,16 +34,17 @@ enum class Method {
   gem,           ///< of pixels: Gaussians, each as wide as bias and variance allow (Rousselle, Knaus and Zwicker 2011)
   sbf,           ///< of pixels: cross-bilateral, each as wide as Stein's risk says (Li, Wu and Chuang 2012)
   axis_aligned,  ///< of pixels: soft shadows, as wide as their occluders allow (Mehta, Wang and Ramamoorthi 2012)
-  lightfield     ///< samples seen again from other places of the lens at other times (Lehtinen et al. 2011)
+  lightfield,    ///< samples seen again from other places of the lens at other times (Lehtinen et al. 2011)
+  multidim       ///< the nearest samples in the space of film, lens and time (Hachisuka et al. 2008)
 };
 
 /// What filter() is to do.
 struct Settings {
   /// Methods with fixed weights know box_widths, the sigmas, features, clamp_negative and everything from
   /// filter_features on; nlm knows damping and window, gem gamma, sbf features, axis_aligned features and bandwidth,
-  /// lightfield views, and these five the clamps and everything from filter_features on; learned knows model, random,
-  /// features, clamp_negative and everything from filter_features on. method_settings() (rpf/methods.h) has box widths
-  /// and sigmas that suit a method.
+  /// lightfield and multidim views, and these six the clamps and everything from filter_features on; learned knows
+  /// model, random, features, clamp_negative and everything from filter_features on. method_settings() (rpf/methods.h)
+  /// has box widths and sigmas that suit a method.
   Method method = Method::rpf;
   /// Of learned: the name of a network in the library (presets.h), or a network file.
   std::string model = "balanced";
@@ -95,7 +96,7 @@ struct Settings {
   float gamma = 0.2F;  ///< larger holds wide Gaussians back: 0.01 .. 0.5
   // Of axis_aligned.
   float bandwidth = 2;  ///< mu of (9.22): larger makes filters narrower; 1e-3 .. 1e3
-  // Of lightfield.
+  // Of lightfield and multidim.
   int views = 128;  ///< places of lens, time and pixel that each pixel is seen from: 1 .. 65536
 
   /// Also filter the features with the weights of the color: Result::features.

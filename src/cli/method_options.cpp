@@ -31,7 +31,7 @@ const Limited limited[] = {
     {{"--damping", "--window"}, {Method::nlm}},
     {{"--gamma"}, {Method::gem}},
     {{"--bandwidth"}, {Method::axis_aligned}},
-    {{"--views"}, {Method::lightfield}},
+    {{"--views"}, {Method::lightfield, Method::multidim}},
 };
 
 bool knows(const Limited& group, Method method) {
@@ -70,7 +70,7 @@ void add_method_options(CLI::App& app, FilterOptions& o) {
          "bilateral also filter any image. Of pixels: nlm: from the likeness of patches; gem: Gaussians, each as wide "
          "as bias and variance allow; sbf: cross-bilateral, each as wide as Stein's risk says; axis-aligned: soft "
          "shadows, as wide as their occluders allow. lightfield: samples seen again from other places of the lens at "
-         "other times")
+         "other times. multidim: the nearest samples in the space of film, lens and time")
       ->check(CLI::IsMember(method_names()))
       ->default_str("learned; rpf where an option asks for it");
   restrict_to(app.add_option("--sigma-color", o.sigma_color,
@@ -92,9 +92,9 @@ void add_method_options(CLI::App& app, FilterOptions& o) {
   restrict_to(app.add_option("--bandwidth", o.settings.bandwidth, "mu of axis-aligned: larger makes filters narrower"),
               ranges::bandwidth)
       ->capture_default_str();
-  restrict_to(
-      app.add_option("--views", o.settings.views, "Places of lens and time that lightfield sees each pixel from"),
-      ranges::views)
+  restrict_to(app.add_option("--views", o.settings.views,
+                             "Places of lens and time that lightfield and multidim see each pixel from"),
+              ranges::views)
       ->capture_default_str();
   app.parse_complete_callback([&app, &o] { check_given_options(app, method_settings(o.method).method); });
 }

@@ -126,6 +126,7 @@ CaseResult run_in_lockstep(const ConformanceCase& c, const std::string& device, 
   const auto start = std::chrono::steady_clock::now();
   const auto compare = [&] {
     if (c.network) return compare_estimates(c, samples_of(c), device, threads);
+    if (c.settings.method == Method::multidim) return compare_columns(c, samples_of(c), device, threads);
     if (c.settings.method == Method::lightfield) return compare_views(c, samples_of(c), device, threads);
     if (filters_pixels(c.settings.method)) return compare_steps(c, samples_of(c), device, threads);
     return Lockstep(c, device, threads).run();

@@ -16,7 +16,8 @@ class MethodCases {
   ConformanceCase basic(int samples = 4) const {
     const Method method = method_settings(method_).method;
     const bool of_shadows = method == Method::axis_aligned, of_light = method == Method::lightfield;
-    ConformanceCase c = CaseList::basic(of_shadows ? "soft-shadow" : of_light ? "combined" : "dof", samples);
+    const bool of_lens_and_time = of_light || method == Method::multidim;
+    ConformanceCase c = CaseList::basic(of_shadows ? "soft-shadow" : of_lens_and_time ? "combined" : "dof", samples);
     c.options.penumbra = of_shadows;
     c.options.lightfield = of_light;
     c.settings = method_settings(method_);
@@ -149,6 +150,22 @@ void add_light_field(MethodCases& list) {
   for (const int samples : {1, 64}) list.add(count_name(samples), list.basic(samples));
 }
 
+void add_columns(MethodCases& list) {
+  for (const int views : {1, 130}) list.add(fmt::format("views/{}", views), [&](Settings& s) { s.views = views; });
+  for (const char* scene : {"dof", "motion", "soft-shadow"}) {
+    ConformanceCase c = list.basic();
+    c.scene = scene;
+    list.add(fmt::format("scene/{}", scene), c);
+  }
+  for (const char* slot : {"random.lens.U", "random.lens.V", "random.time"})
+    for (const float value : {std::numeric_limits<float>::quiet_NaN(), -1e3F, 1e30F, 3e38F}) {
+      ConformanceCase c = list.basic();
+      c.change = poison(slot, value, 3);
+      list.add(fmt::format("extreme/{}{:g}", slot, value), c);
+    }
+  for (const int samples : {1, 64}) list.add(count_name(samples), list.basic(samples));
+}
+
 void add_common_settings(MethodCases& list) {
   list.add("carried/features", [](Settings& s) { s.filter_features = true; });
   list.add("crop", [](Settings& s) { s.crop = Window{3, 5, 11, 7}; });
@@ -169,6 +186,7 @@ void add_methods(CaseList& all) {
       if (method == Method::sbf) add_feature_groups(list);
       if (method == Method::axis_aligned) add_shadows(list);
       if (method == Method::lightfield) add_light_field(list);
+      if (method == Method::multidim) add_columns(list);
       continue;
     }
     add_method_frames(list);

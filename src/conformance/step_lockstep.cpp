@@ -23,6 +23,21 @@ Comparison compare_steps(const ConformanceCase& c, SampleBuffer samples, const s
   return comparison;
 }
 
+Comparison compare_columns(const ConformanceCase& c, SampleBuffer samples, const std::string& device_name,
+                           int threads) {
+  const PixelColumns columns = make_pixel_columns(prepare(std::move(samples), c.settings), c.settings, threads, [] {});
+  const auto silent = [](double /*part*/) {};
+  CpuBackend reference(threads);
+  OpenClBackend device({device_name, threads, 0});
+  Comparison comparison;
+  PixelColumns first = columns;
+  first.points.resize(1);
+  comparison.at(0, "whole frame");
+  comparison.values("first point", reference.integrate_columns(first, silent), device.integrate_columns(first, silent));
+  comparison.values("sums", reference.integrate_columns(columns, silent), device.integrate_columns(columns, silent));
+  return comparison;
+}
+
 Comparison compare_views(const ConformanceCase& c, SampleBuffer samples, const std::string& device_name, int threads) {
   const LightField light = make_light_field(prepare(std::move(samples), c.settings), c.settings);
   const auto silent = [](double /*part*/) {};

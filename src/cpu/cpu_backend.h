@@ -31,6 +31,7 @@ class CpuBackend : public Backend {
                                const EstimateProgress& progress) override;
   std::uint64_t step_bytes(const PixelPlan& plan) const override;
   std::vector<float> see_views(const LightField& light, const EstimateProgress& progress) override;
+  std::vector<float> integrate_columns(const PixelColumns& columns, const EstimateProgress& progress) override;
 
   struct Workspace;
 

@@ -20,6 +20,7 @@ std::vector<float> CpuBackend::see_views(const LightField& light, const Estimate
     kernel::rpf_find_ends(track, &field.lens, ends.data() + i * RPF_ENDS);
   });
   ViewCells sorted(field);
+  const kernel::rpf_view_sums to = {light.colors.data(), light.means.data(), sums.data(), light.pixels(), field.carried};
   for (const kernel::rpf_view& view : light.views) {
     for_samples([&](std::size_t i, const float* track) {
       kernel::rpf_move(track, &field.lens, &view, places.data() + i * RPF_PLACE);
@@ -27,8 +28,7 @@ std::vector<float> CpuBackend::see_views(const LightField& light, const Estimate
     sorted.sort(places);
     const kernel::rpf_cells cells = {sorted.first().data(), sorted.places().data(), sorted.samples().data()};
     workers.for_all(0, static_cast<std::size_t>(field.height), [&](std::size_t y, std::size_t /*worker*/) {
-      kernel::rpf_see_run(&field, &view, &cells, ends.data(), light.colors.data(), light.means.data(), sums.data(),
-                          static_cast<int>(y), 0, field.width);
+      kernel::rpf_see_run(&field, &view, &cells, ends.data(), &to, static_cast<int>(y), 0, field.width);
     });
     progress(1.0 / static_cast<double>(light.views.size()));
   }

@@ -210,4 +210,10 @@ std::vector<float> pixel_planes(const PreparedFrame& prepared, const std::vector
   return values;
 }
 
+std::vector<float> pixel_means(const PreparedFrame& prepared) {
+  std::vector<PixelPlane> planes;
+  for (std::size_t c = 0; c < prepared.facts.carried; ++c) planes.push_back({PixelQuantity::mean, c});
+  return pixel_planes(prepared, planes, planes.size());
+}
+
 }  // namespace rpf

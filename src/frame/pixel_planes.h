@@ -37,4 +37,7 @@ struct PixelPlane {
 /// A sample's weight takes part in means, not in variances.
 std::vector<float> pixel_planes(const PreparedFrame& prepared, const std::vector<PixelPlane>& planes, std::size_t room);
 
+/// [carried][pixel]: the means of all of them.
+std::vector<float> pixel_means(const PreparedFrame& prepared);
+
 }  // namespace rpf

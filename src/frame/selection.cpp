@@ -128,6 +128,14 @@ Selection select_trajectories(const std::vector<std::string>& random, const std:
   return {has_time ? Groups{"random.time"} : Groups{}, needed};
 }
 
+/// The dimensions that there are beside the film's two.
+std::vector<std::string> select_lens_and_time(const std::vector<std::string>& random) {
+  std::vector<std::string> picked;
+  for (const char* slot : {"random.lens.U", "random.lens.V", "random.time"})
+    if (contains(random, slot)) picked.emplace_back(slot);
+  return picked;
+}
+
 /// Shadows need to know where surfaces are and what stands before the light.
 std::vector<std::string> select_shadow_features(const std::vector<std::string>& slots, const Settings& settings) {
   require_slots(slots,
@@ -156,6 +164,7 @@ Selection select_channels(const SampleLayout& layout, const Settings& settings) 
             select_known(features, settings.features, {"the learned estimator", "feature", learned_features})};
   if (settings.method == Method::axis_aligned) return {{}, select_shadow_features(features, settings)};
   if (settings.method == Method::lightfield) return select_trajectories(random, features);
+  if (settings.method == Method::multidim) return {select_lens_and_time(random), {}};
   if (settings.method == Method::rpf) selection.random = select_random(random, settings);
   if (contains(settings.features.value_or(Groups{}), inside_pixel))
     throw Error(ErrorKind::usage,

@@ -49,6 +49,8 @@ class OpenClBackend : public Backend {
   std::uint64_t step_bytes(const PixelPlan& plan) const override;
   void get_ready_views(const std::function<void()>& check) override;
   std::vector<float> see_views(const LightField& light, const EstimateProgress& progress) override;
+  void get_ready_columns(const std::function<void()>& check) override;
+  std::vector<float> integrate_columns(const PixelColumns& columns, const EstimateProgress& progress) override;
 
  private:
   /// What stays on the device for a pass: the plan's tables, or the coordinates of fixed weights.

@@ -12,15 +12,6 @@ constexpr const char* file = "views.cl";
 /// Pixels that an item looks from before it is waited for: some tenths of a second.
 constexpr double pixels_at_once = 1e5;
 
-cl::Buffer input(Session& session, const void* data, std::size_t bytes) {
-  return session.host_buffer(data, bytes, CL_MEM_READ_ONLY);
-}
-
-template <typename T>
-cl::Buffer input(Session& session, const std::vector<T>& values) {
-  return input(session, values.data(), values.size() * sizeof(T));
-}
-
 /// A light field on a device.
 class DeviceViews {
  public:
@@ -31,14 +22,14 @@ class DeviceViews {
     const cl::Program& program = session.program(file, "");
     move_ = cl::Kernel(program, "move_samples");
     see_ = cl::Kernel(program, "see_rows");
-    tracks_ = input(session, light.tracks);
+    tracks_ = session.input(light.tracks);
     place_buffer_ = session.host_buffer(places_.data(), places_.size() * sizeof(float), CL_MEM_READ_WRITE);
     sum_buffer_ = session.host_buffer(sums_.data(), sums_.size() * sizeof(float), CL_MEM_READ_WRITE);
     find_ends(program);
     see_.setArg(0, light.field);
     see_.setArg(5, ends_);
-    see_.setArg(6, colors_ = input(session, light.colors));
-    see_.setArg(7, means_ = input(session, light.means));
+    see_.setArg(6, colors_ = session.input(light.colors));
+    see_.setArg(7, means_ = session.input(light.means));
     see_.setArg(8, sum_buffer_);
     move_.setArg(0, tracks_);
     move_.setArg(1, light.field.lens);
@@ -56,8 +47,8 @@ class DeviceViews {
 
   void see(const kernel::rpf_view& view, const std::function<void(double part)>& progress) {
     sorted_.sort(move(view));
-    const cl::Buffer first = input(session_, sorted_.first()), place = input(session_, sorted_.places()),
-                     sample = input(session_, sorted_.samples());
+    const cl::Buffer first = session_.input(sorted_.first()), place = session_.input(sorted_.places()),
+                     sample = session_.input(sorted_.samples());
     see_.setArg(1, view);
     see_.setArg(2, first);
     see_.setArg(3, place);

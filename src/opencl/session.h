@@ -64,6 +64,11 @@ class Session {
   /// A buffer that is the host's own memory where the device can do that, else a copy; `bytes` 0 makes a small one.
   /// Debug builds always copy, as a device with memory of its own does.
   cl::Buffer host_buffer(const void* data, std::size_t bytes, cl_mem_flags access);
+  /// The same of values that kernels only read.
+  template <typename T>
+  cl::Buffer input(const std::vector<T>& values) {
+    return host_buffer(values.data(), values.size() * sizeof(T), CL_MEM_READ_ONLY);
+  }
   /// Makes bytes that a kernel wrote into a host_buffer() visible in the host's memory, at `data` of the call above.
   void read_back(const cl::Buffer& buffer, std::size_t offset, std::size_t bytes, void* data);
   /// A buffer with a copy of `values`.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "frame/pixel_planes.h"
+#include "plan/sequence.h"
 #include "plan/tracks.h"
 
 namespace rpf {
@@ -14,19 +15,6 @@ constexpr double empty_circle = 2.4;  ///< radius of the largest, for one sample
 constexpr double widest = 8;          ///< pixels
 constexpr int finest = 64;            ///< cells a pixel
 constexpr double pi = 3.14159265358979323846;
-
-/// Where the additive recurrence of five dimensions is after n steps (Roberts 2018): evenly spread for any number.
-std::array<double, 5> place_in_sequence(int n) {
-  constexpr double root = 1.1347241384015194;  // of x^6 = x + 1
-  std::array<double, 5> place;
-  double step = 1;
-  for (double& value : place) {
-    step /= root;
-    value = 0.5 + (n + 1) * step;
-    value -= std::floor(value);
-  }
-  return place;
-}
 
 /// Concentric squares become circles (Shirley and Chiu 1997).
 std::array<double, 2> in_disc(double u, double v) {
@@ -62,12 +50,6 @@ void take_camera(const CameraFacts& camera, const std::array<double, 3>& origin,
   lens.inverse_focus = static_cast<float>(camera.inverse_focus);
 }
 
-std::vector<float> means_of(const PreparedFrame& prepared) {
-  std::vector<PixelPlane> planes;
-  for (std::size_t c = 0; c < prepared.facts.carried; ++c) planes.push_back({PixelQuantity::mean, c});
-  return pixel_planes(prepared, planes, planes.size());
-}
-
 }  // namespace
 
 kernel::rpf_light_field light_field_shape(int width, int height, std::size_t carried, std::uint64_t samples) {
@@ -93,7 +75,7 @@ LightField make_light_field(const PreparedFrame& prepared, const Settings& setti
   for (int n = 0; n < settings.views; ++n) result.views.push_back(view(n));
   result.tracks = sample_tracks(prepared, origin);
   result.colors = prepared.colors;
-  result.means = means_of(prepared);
+  result.means = pixel_means(prepared);
   return result;
 }
 

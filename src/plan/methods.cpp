@@ -34,7 +34,8 @@ constexpr NamedMethod all_methods[] = {
     {"sbf", Method::sbf, statistics_of_pixels | whole_frame | spread_of_features},
     {"axis-aligned", Method::axis_aligned, statistics_of_pixels | whole_frame | spread_of_features},
     // Where surfaces are, not only how they differ.
-    {"lightfield", Method::lightfield, whole_frame | spread_of_features | channels_that_do_not_vary}};
+    {"lightfield", Method::lightfield, whole_frame | spread_of_features | channels_that_do_not_vary},
+    {"multidim", Method::multidim, whole_frame}};
 
 const NamedMethod& entry_of(Method method) { return all_methods[static_cast<std::size_t>(method)]; }
 

@@ -70,6 +70,11 @@ void get_ready_views(std::unique_ptr<Backend>& backend, const Settings& settings
                        [&](const std::function<void()>& check) { backend->get_ready_views(check); });
 }
 
+void get_ready_columns(std::unique_ptr<Backend>& backend, const Settings& settings, ProgressMeter& meter) {
+  get_ready_or_replace(backend, settings, meter,
+                       [&](const std::function<void()>& check) { backend->get_ready_columns(check); });
+}
+
 void load_backend(std::unique_ptr<Backend>& backend, const Settings& settings, const Frame& frame,
                   std::vector<float> colors, const Plan& plan, ProgressMeter& meter) {
   get_ready_or_replace(backend, settings, meter,

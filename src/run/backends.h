@@ -24,6 +24,8 @@ void get_ready_estimate(std::unique_ptr<Backend>& backend, const Settings& setti
 void get_ready_steps(std::unique_ptr<Backend>& backend, const Settings& settings, ProgressMeter& meter);
 /// The same for the views of a light field.
 void get_ready_views(std::unique_ptr<Backend>& backend, const Settings& settings, ProgressMeter& meter);
+/// The same for columns of pixels.
+void get_ready_columns(std::unique_ptr<Backend>& backend, const Settings& settings, ProgressMeter& meter);
 
 /// The same for the passes of a plan, and load(). `meter` also watches the backend.
 void load_backend(std::unique_ptr<Backend>& backend, const Settings& settings, const Frame& frame,

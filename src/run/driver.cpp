@@ -57,6 +57,8 @@ class Run {
     if (settings.method == Method::rpf && settings.drop_uninformative) drop_uninformative(prepared_, settings);
     if (settings.method == Method::lightfield)
       light_ = make_light_field(prepared_, settings);
+    else if (settings.method == Method::multidim)
+      return;  // its plan is work that can be stopped: integrate_columns()
     else if (filters_pixels(settings.method))
       pixel_plan_ = make_pixel_plan(prepared_.facts, settings);
     else
@@ -96,6 +98,7 @@ class Run {
     if (settings_.method == Method::learned) return estimate();
     if (passes_) return finish_streamed();
     if (settings_.method == Method::lightfield) return see_views();
+    if (settings_.method == Method::multidim) return integrate_columns();
     return filters_pixels(settings_.method) ? filter_pixels() : run_passes(before_pass);
   }
 
@@ -211,13 +214,30 @@ class Run {
     const double plain_energy = energy_of_means(prepared_.frame, prepared_.facts.crop);
     get_ready_views(backend_, settings_, meter);
     const std::vector<float> sums = backend_->see_views(light_, [&](double part) { meter.add_part(part); });
-    const std::size_t count = light_.pixels();
-    const float* seen = sums.data() + light_.field.carried * count;
-    for (std::size_t i = 0; i < light_.means.size(); ++i)
-      light_.means[i] = kernel::rpf_mean_of_views(light_.means[i], sums[i], seen[i % count]);
     Result result;
-    describe_at_once(result, pixels_of(light_.means.data()), plain_energy, meter);
+    describe_at_once(result, mean_of_views(std::move(light_.means), sums), plain_energy, meter);
     return result;
+  }
+
+  /// Columns of pixels in the space of the samples, the whole frame whatever the crop.
+  Result integrate_columns() {
+    ProgressMeter meter(control_);
+    const double plain_energy = energy_of_means(prepared_.frame, prepared_.facts.crop);
+    get_ready_columns(backend_, settings_, meter);
+    PixelColumns columns = make_pixel_columns(prepared_, settings_, threads_, [&] { meter.check(); });
+    const std::vector<float> sums = backend_->integrate_columns(columns, [&](double part) { meter.add_part(part); });
+    Result result;
+    describe_at_once(result, mean_of_views(std::move(columns.means), sums), plain_energy, meter);
+    return result;
+  }
+
+  /// Of the means of pixels, and the sums of what their views saw.
+  Pixels mean_of_views(std::vector<float> means, const std::vector<float>& sums) const {
+    const std::size_t count = means.size() / prepared_.facts.carried;
+    const float* seen = sums.data() + means.size();
+    for (std::size_t i = 0; i < means.size(); ++i)
+      means[i] = kernel::rpf_mean_of_views(means[i], sums[i], seen[i % count]);
+    return pixels_of(means.data());
   }
 
   /// Of planes, one for each carried channel; 0 where there are no samples.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "frame/selection.h"
+#include "plan/sample_tree.h"
 #include "plan/view_cells.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
@@ -50,6 +51,16 @@ std::uint64_t light_field_need(const FrameSize& size, const SampleLayout& layout
          2 * word * cells_of(light_field_shape(width, std::max(height, 1), facts.carried, size.samples));
 }
 
+/// Places, numbers and leaves of samples, their colors; means and sums of pixels; metrics and tensors of leaves.
+std::uint64_t columns_need(const FrameSize& size, const SampleLayout& layout, std::uint64_t room,
+                           const FrameFacts& facts) {
+  constexpr std::uint64_t of_leaf = RPF_METRIC + 2 * RPF_DIMENSIONS * RPF_DIMENSIONS + 3;
+  const std::uint64_t floats = sample_floats(layout.size(), room, facts.variables.count(), facts.carried);
+  return size.samples * word * (floats + 2 * RPF_DIMENSIONS + 2 + facts.carried) +
+         leaves_for(size.samples) * word * of_leaf +
+         size.pixels * (pixel_bytes(facts.carried) + word * (2 * facts.carried + 1));
+}
+
 /// `room`: columns that the buffer of values can hold.
 std::uint64_t memory_need(const FrameSize& size, const SampleLayout& layout, std::uint64_t room,
                           const Settings& settings) {
@@ -57,6 +68,7 @@ std::uint64_t memory_need(const FrameSize& size, const SampleLayout& layout, std
     return estimate_bands(size, layout, room, settings, *make_backend(settings)).bytes;
   const FrameFacts facts = largest_facts(size, layout, settings);
   if (settings.method == Method::lightfield) return light_field_need(size, layout, room, facts);
+  if (settings.method == Method::multidim) return columns_need(size, layout, room, facts);
   if (filters_pixels(settings.method)) return pixel_method_need(size, layout, room, facts, settings);
   Settings without_crop = settings;
   without_crop.crop.reset();

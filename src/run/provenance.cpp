@@ -65,8 +65,8 @@ void describe_fixed_weights(const Settings& settings, Metadata& m) {
   m["rpf:choices"] = cleaning_text(settings);
 }
 
-/// What the light field was told.
-void describe_light_field(const Settings& settings, Metadata& m) {
+/// What the light field, or columns of pixels, were told.
+void describe_views(const Settings& settings, Metadata& m) {
   m["rpf:views"] = std::int32_t{settings.views};
   m["rpf:choices"] = cleaning_text(settings);
 }
@@ -96,8 +96,8 @@ Metadata provenance(Metadata input, const Settings& settings, const Report& repo
     describe_rpf(settings, report, m);
   else if (settings.method == Method::learned)
     describe_learned(settings, report, m);
-  else if (settings.method == Method::lightfield)
-    describe_light_field(settings, m);
+  else if (settings.method == Method::lightfield || settings.method == Method::multidim)
+    describe_views(settings, m);
   else if (filters_pixels(settings.method))
     describe_pixel_method(settings, m);
   else

@@ -11,6 +11,7 @@
 #include "learned/estimate_plan.h"
 #include "pass.h"
 #include "plan/light_field.h"
+#include "plan/pixel_columns.h"
 #include "plan/pixel_plan.h"
 #include "plan/plan.h"
 #include "seam/trace.h"
@@ -86,6 +87,13 @@ class Backend {
   /// What all views see, LightField::sums(): [carried][pixel] the sum of how far it is off from the pixel's mean, then
   /// [pixel] the number of views that see something. Calls `progress` as run_steps() does.
   virtual std::vector<float> see_views(const LightField& light, const EstimateProgress& progress) = 0;
+
+  // Columns of pixels in the space of the samples, in place of all of the above.
+
+  /// integrate_columns() compiles nothing afterwards; `check` is called now and then. Throws Error(device).
+  virtual void get_ready_columns(const std::function<void()>& /*check*/) {}
+  /// What all points take, PixelColumns::sums(), as see_views() has it.
+  virtual std::vector<float> integrate_columns(const PixelColumns& columns, const EstimateProgress& progress) = 0;
 
  protected:
   std::function<void()> check_;  ///< empty: nobody watches

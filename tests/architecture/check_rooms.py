@@ -15,7 +15,7 @@ ROOMS = {
     "src/parallel": "",               # work that several threads share
     # what was rendered; what will be done about it; what a backend is asked
     "src/frame": "kernels",           # the sums of resolve
-    "src/plan": "src/frame kernels",
+    "src/plan": "src/parallel src/frame kernels",
     "src/learned": "src/frame kernels",  # the estimator of docs/network.md: its networks, what it is shown
     "src/seam": "src/frame src/plan src/learned kernels",
     # those who do it; what follows a pass; the run

@@ -192,7 +192,7 @@ class CommandTest(CommandCase):
                                ("learned", ["--noise", "1"]), ("rpf", ["--model", "fast"]),
                                ("cross-bilateral", ["--profile", "paper"]), ("gaussian", ["--features", "N"]),
                                ("gaussian", ["--sigma-color", "1"]), ("bilateral", ["--sigma-feature", "1"]),
-                               ("rpf", ["--sigma-color", "1"]), ("gem", ["--damping", "1"]), ("nlm", ["--gamma", "0.1"]), ("sbf", ["--boxes", "3"]), ("sbf", ["--bandwidth", "1"]), ("gem", ["--views", "9"]), ("lightfield", ["--features", "P"]), ("gaussian", ["--time-budget", "1s"])):
+                               ("rpf", ["--sigma-color", "1"]), ("gem", ["--damping", "1"]), ("nlm", ["--gamma", "0.1"]), ("sbf", ["--boxes", "3"]), ("sbf", ["--bandwidth", "1"]), ("gem", ["--views", "9"]), ("lightfield", ["--features", "P"]), ("multidim", ["--random", "lens"]), ("gaussian", ["--time-budget", "1s"])):
             self.expect(run(EXAMPLE, "-o", self.output, "--method", method, *option), 2, option[0], "means nothing to")
         self.expect(run(EXAMPLE, "-o", self.output, "--method", "median"), 2, "median", "cross-bilateral")
         self.expect_nothing_written()

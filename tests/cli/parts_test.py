@@ -115,7 +115,7 @@ class PartsTest(CommandCase):
         self.assertFalse((self.folder / "out.exr").exists())
 
     def test_methods_that_need_the_whole_frame_refuse_parts(self):
-        for method in ("nlm", "gem", "sbf", "axis-aligned", "lightfield"):
+        for method in ("nlm", "gem", "sbf", "axis-aligned", "lightfield", "multidim"):
             self.expect(run(self.frame, "-o", self.folder / "out.exr", "--method", method, "--rows", "1/2"), 2, "the whole frame at once")
             if method not in ("axis-aligned", "lightfield"):  # which refuse this frame before, for want of what they need of it
                 self.expect(run("facts", self.frame, "-o", self.facts, "--method", method), 2, "the whole frame at once")

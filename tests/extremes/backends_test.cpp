@@ -83,7 +83,7 @@ RC_GTEST_PROP(Backends, FilterPixelsToTheSameFiniteBitsAtAllExtremesTogether, ()
 RC_GTEST_PROP(Backends, SeeTheSameFiniteBitsAtAllExtremesTogether, ()) {
   SampleBuffer samples = any_extreme_frame();
   move_extremely(samples);
-  Settings settings = method_settings("lightfield");
+  Settings settings = method_settings(*rc::gen::element<std::string>("lightfield", "multidim"));
   settings.backend = backend_under_test();
   settings.views = 5;
   const std::vector<float> found = filtered(samples, settings);

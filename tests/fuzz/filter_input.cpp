@@ -115,11 +115,12 @@ rpf::Settings settings_of(Bytes& bytes, const Kind& kind) {
   return s;
 }
 
-/// One of the methods with fixed weights, which are compiled from box.cl, or of those that filter pixels.
+/// One of the methods with fixed weights, which are compiled from box.cl, of those that filter pixels, or multidim.
 void choose_method(Bytes& bytes, rpf::Settings& s) {
-  s.method = bytes.one_of(std::array<rpf::Method, 7>{rpf::Method::gaussian, rpf::Method::bilateral,
-                                                     rpf::Method::cross_bilateral, rpf::Method::nlm, rpf::Method::gem,
-                                                     rpf::Method::sbf, rpf::Method::axis_aligned});
+  s.method = bytes.one_of(std::array<rpf::Method, 8>{
+      rpf::Method::gaussian, rpf::Method::bilateral, rpf::Method::cross_bilateral, rpf::Method::nlm, rpf::Method::gem,
+      rpf::Method::sbf, rpf::Method::axis_aligned, rpf::Method::multidim});
+  s.views = 7;
   if (bytes.flag(2)) s.sigma_color = bytes.value();
   if (bytes.flag(2)) s.sigma_feature = bytes.value();
 }

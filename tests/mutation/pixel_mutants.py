@@ -4,6 +4,7 @@ from mutants import Mutant
 PATCH, BANK, RISK, PLANES = "kernels/patch_steps.h", "kernels/bank_steps.h", "kernels/risk_steps.h", "kernels/plane_steps.h"
 SHADOW = "kernels/shadow_steps.h"
 VIEWS, TRACKS = "kernels/views.h", "src/plan/tracks.cpp"
+NEAREST, METRICS, TREE, COLUMNS = "kernels/nearest.h", "src/plan/leaf_metrics.cpp", "src/plan/sample_tree.cpp", "src/plan/pixel_columns.cpp"
 QUANTITIES = "src/frame/pixel_planes.cpp"
 
 MUTANTS = [
@@ -27,5 +28,11 @@ MUTANTS = [
     Mutant("light_depth", VIEWS, "a->depth < b->depth", "a->depth > b->depth", "oracle lightfield image", "surfaces: the last one is seen"),
     Mutant("light_shift", VIEWS, "1.0f / seen.depth - lens->inverse_focus", "1.0f / seen.depth", "oracle lightfield image", "the lens: focused on what is far"),
     Mutant("light_bend", TRACKS, "bends ? off / around : 0", "0", "oracle lightfield image", "trajectories: straight ones"),
+    Mutant("column_metric", METRICS, "is_steep ? tensor[k][l] / all : 0", "0", "oracle multidim image", "the metric: round"),
+    Mutant("column_triangle", METRICS, "(k == l ? 1 : 2) * tensor[k][l]", "tensor[k][l]", "oracle multidim image", "the metric: half of what is beside the diagonal"),
+    Mutant("column_reach", NEAREST, "off * off * metric[RPF_REACH + axis]", "off * off", "oracle multidim image", "the search: stops where the metric is steepest"),
+    Mutant("column_leaves", NEAREST, "#define RPF_MOST_LEAVES 64", "#define RPF_MOST_LEAVES 6", "oracle multidim image", "the search: gives up early"),
+    Mutant("column_axis", TREE, "if (width > most) widest", "if (width < most) widest", "oracle multidim image", "the tree: cut where it is narrow"),
+    Mutant("column_lens", COLUMNS, "pixels_of_lens * record[", "record[", "oracle multidim image", "the space: a lens of one pixel"),
     Mutant("pixel_sbf_least", RISK, "variance > least ? variance : least", "variance + least", "oracle sbf image", "features: the least variance is added"),
 ]

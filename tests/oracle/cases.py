@@ -293,6 +293,31 @@ LIGHT_FIELD_CASES = {
     "lightfield_1e30": lambda: light_field(128, also=scaled_radiance(1e30)),
 }
 
+def lose_lens(channels, rng, counts):
+    """NaN for some numbers of the lens and of time; these samples have no place."""
+    for name in ("random.lens.U", "random.time"):
+        channels[name] = np.where(some(rng, len(channels["R"]), 0.1), np.nan, channels[name])
+
+
+def no_lens(channels, rng, counts):
+    """Neither lens nor time: what is left is the film."""
+    still_scene(channels, rng, counts)
+    for name in ("random.lens.U", "random.lens.V"):
+        del channels[name]
+
+
+COLUMN_CASES = {
+    "multidim": lambda: pixels("multidim", 130, views=12),
+    "multidim_varying": lambda: pixels("multidim", 131, varying=True, views=12),
+    "multidim_gaps": lambda: pixels("multidim", 132, spp=with_gaps(132), views=12),
+    "multidim_missing": lambda: pixels("multidim", 133, change=lose_lens, views=12),
+    "multidim_weighted": lambda: pixels("multidim", 134, change=weigh_samples, views=12),
+    "multidim_one_sample": lambda: pixels("multidim", 135, spp=1, width=40, height=3, views=12),
+    "multidim_film": lambda: pixels("multidim", 136, change=no_lens, views=12),
+    "multidim_many": lambda: pixels("multidim", 137, spp=100, width=5, height=4, views=12),
+    "multidim_1e30": lambda: pixels("multidim", 138, change=scaled_radiance(1e30), views=12),
+}
+
 CASES = {
     "spp1_thesis": lambda: simple(11, spp=1, position_scale=1),
     "spp1_paper": lambda: simple(12, spp=1, position_scale=1, profile="paper", change=still_scene),
@@ -328,6 +353,7 @@ CASES = {
     **FIXED_CASES,
     **PIXEL_CASES,
     **LIGHT_FIELD_CASES,
+    **COLUMN_CASES,
 }
 
 

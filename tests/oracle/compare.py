@@ -21,6 +21,7 @@ except ImportError:
 
 sys.dont_write_bytecode = True      # the source folder stays clean
 import cases
+import columns
 import draw_statistics
 import fixed_weights
 import oracle
@@ -298,6 +299,8 @@ def witness_of(method):
         return pixel_methods.compare
     if method == "lightfield":
         return light_field.compare
+    if method == "multidim":
+        return columns.compare
     return compare if method == "rpf" else fixed_weights.compare
 
 

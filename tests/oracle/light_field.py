@@ -8,12 +8,17 @@ from tolerances import TOLERANCE
 EMPTY_CIRCLE, WIDEST, MOST_SEEN, LEAST_TIME = 2.4, 8.0, 32, 1 / 1024
 
 
-def views(count):
-    """[count, 5]: u, v of the lens, time, x, y."""
+def sequence(count):
+    """[count, 5]: points of the additive recurrence."""
     root = 1.0
     for _ in range(100):
         root = (root + 1) ** (1 / 6)                              # of x^6 = x + 1
-    x, y, time, a, b = (0.5 + np.outer(np.arange(1, count + 1), root ** -np.arange(1.0, 6.0))).T % 1
+    return (0.5 + np.outer(np.arange(1, count + 1), root ** -np.arange(1.0, 6.0))) % 1
+
+
+def views(count):
+    """[count, 5]: u, v of the lens, time, x, y."""
+    x, y, time, a, b = sequence(count).T
     a, b = 2 * a - 1, 2 * b - 1
     wide = np.abs(a) > np.abs(b)
     radius, other = np.where(wide, a, b), np.where(wide, b, a)
@@ -158,11 +163,8 @@ def see(case, frame):
     return sums, seen, close / count
 
 
-def compare(case, trace):
-    """The Report on a trace of a case."""
-    frame = scene_frame.load_frame(case, [], [])
-    report = Report()
-    sums, seen, close = see(case, frame)
+def check_image(frame, sums, seen, close, image, report):
+    """Compares a picture with the mean of what views see, but for the part of them that is close."""
     weight = np.ones(len(frame.values)) if frame.weight is None else frame.weight
     expected = np.zeros((len(frame.counts), 3))
     for pixel in np.flatnonzero(frame.counts):                                                           # (11.6)
@@ -171,7 +173,14 @@ def compare(case, trace):
         expected[pixel] = sums[pixel] / seen[pixel] if seen[pixel] else share @ frame.values[own, :3] / share.sum()
     largest = np.abs(frame.values[:, :3]).max()
     bound = (TOLERANCE["light_color"] + 2 * close[:, None]) * largest
-    report.check("image", trace["image"], expected, np.broadcast_to(bound, expected.shape), "image")
+    report.check("image", image, expected, np.broadcast_to(bound, expected.shape), "image")
     if close.mean() > TOLERANCE["light_close"]:
         report.fail("image", "image", f"{close.mean():.3g} of the views are close calls")
+
+
+def compare(case, trace):
+    """The Report on a trace of a case."""
+    frame = scene_frame.load_frame(case, [], [])
+    report = Report()
+    check_image(frame, *see(case, frame), trace["image"], report)
     return report

@@ -47,6 +47,8 @@ TOLERANCE = {
     "light_near": 5e-6,
     "light_color": 1e-6,
     "light_close": 0.1,
+    # section 12: the part of a squared distance within which float32 may take the other sample
+    "column_near": 1e-4,
     # standard deviations of chance; 6 happens once in 1e9
     "draw_statistics": 6.0,
 }
