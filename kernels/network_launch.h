@@ -19,6 +19,9 @@ namespace rpf::kernel {
 // Values that passes read lie in planes, [row][plane][pixel], with so many pixels at either end that do not count.
 #define RPF_MARGIN 16
 
+// Pixels of a pass that a pixel is weighed with, those further on in its row and in the rows below: 2 and 10.
+#define RPF_PASS_PAIRS 12
+
 // Samples lie in rows of so many, without a border.
 #define RPF_SAMPLE_ROW 64
 
@@ -71,8 +74,7 @@ typedef struct {
   rpf_area area;
   rpf_grid weights, in, out;
   int dilation;
-  int embedding;  // distances' terms
-  int values;     // planes of `in`
+  int values;  // planes of `in`
 } rpf_network_pass;
 
 #ifdef __cplusplus

@@ -45,7 +45,7 @@ __kernel void embed(__global const float* heads, __global const float* guides, _
 
 // Squared distances of RPF_LANES pixels from `own` on to those at five places of a row, then the weights.
 static void weigh_row(__global const float* own, __global const float* other, int terms, int plane, int dilation,
-                      float16* weights) {
+                      __global float* weights, int weight_plane) {
   float16 d0 = 0.0f, d1 = 0.0f, d2 = 0.0f, d3 = 0.0f, d4 = 0.0f;
   for (int k = 0; k < terms; ++k) {
     __global const float* o = other + k * plane;
@@ -58,11 +58,59 @@ static void weigh_row(__global const float* own, __global const float* other, in
     d3 = fma(t3, t3, d3);
     d4 = fma(t4, t4, d4);
   }
-  weights[0] = rpf_exp(-d0);
-  weights[1] = rpf_exp(-d1);
-  weights[2] = rpf_exp(-d2);
-  weights[3] = rpf_exp(-d3);
-  weights[4] = rpf_exp(-d4);
+  vstore16(rpf_exp(-d0), 0, weights);
+  vstore16(rpf_exp(-d1), 0, weights + weight_plane);
+  vstore16(rpf_exp(-d2), 0, weights + 2 * weight_plane);
+  vstore16(rpf_exp(-d3), 0, weights + 3 * weight_plane);
+  vstore16(rpf_exp(-d4), 0, weights + 4 * weight_plane);
+}
+
+// The same for the two places further on in the pixels' own row.
+static void weigh_own_row(__global const float* own, int terms, int plane, int dilation, __global float* weights,
+                          int weight_plane) {
+  float16 d3 = 0.0f, d4 = 0.0f;
+  for (int k = 0; k < terms; ++k) {
+    __global const float* o = own + k * plane;
+    const float16 e = vload16(0, o);
+    const float16 t3 = e - vload16(0, o + dilation), t4 = e - vload16(0, o + 2 * dilation);
+    d3 = fma(t3, t3, d3);
+    d4 = fma(t4, t4, d4);
+  }
+  vstore16(rpf_exp(-d3), 0, weights);
+  vstore16(rpf_exp(-d4), 0, weights + weight_plane);
+}
+
+// Planes of the weights of RPF_PASS_PAIRS pairs: of a pixel with those at +1 and +2 (times the dilation) in its row,
+// then with those at -2 .. +2 in the two rows below; then w_ii.
+__kernel void weigh_pixels(__global const float* embedded, __global float* weights, const rpf_area area,
+                           const rpf_grid embedded_grid, const rpf_grid grid, const int dilation, const int terms) {
+  const int plane = plane_of(&embedded_grid, terms + 1), weight_plane = plane_of(&grid, RPF_PASS_PAIRS + 1);
+  for (int i = first_part(); i < end_part(&area); i += (int)get_global_size(0)) {
+    const int y = row_of_part(&area, i), begin = begin_of_part(&area, i), end = end_of_part(&area, i);
+    __global float* row = weights + row_at(&grid, y);
+    for (int x = begin; x < end; x += RPF_LANES) {
+      __global const float* own = embedded + row_at(&embedded_grid, y) + RPF_PLACES(x);
+      __global float* to = row + RPF_PLACES(x);
+      weigh_own_row(own, terms, plane, dilation, to, weight_plane);
+      for (int j = 1; j <= RPF_PASS_REACH && y + j * dilation < area.height; ++j)
+        weigh_row(own, embedded + row_at(&embedded_grid, y + j * dilation) + RPF_PLACES(x), terms, plane, dilation,
+                  to + (RPF_TAPS * j - 3) * weight_plane, weight_plane);
+      vstore16(vload16(0, own + terms * plane), 0, to + RPF_PASS_PAIRS * weight_plane);
+    }
+    close_planes(row, weight_plane, RPF_PASS_PAIRS + 1, begin, end, area.width, 0.0f);
+  }
+}
+
+// Weights of RPF_LANES pixels with those at five places of a row that is j - RPF_PASS_REACH rows (times the dilation)
+// further on. `own`, `other`: what weigh_pixels() made of the pixels and of those right above or below them.
+static void load_row(__global const float* own, __global const float* other, int j, int plane, int dilation,
+                     float16* weights) {
+  for (int t = 0; t < RPF_TAPS; ++t) {
+    const int right = t - RPF_PASS_REACH, from = (j - RPF_PASS_REACH) * RPF_TAPS + right;  // 1, 2, 3 .. 12 further on
+    weights[t] = from > 0   ? vload16(0, own + (from - 1) * plane)
+                 : from < 0 ? vload16(0, other + (-from - 1) * plane + right * dilation)
+                            : vload16(0, own + RPF_PASS_PAIRS * plane);
+  }
 }
 
 // Adds five weighted values of a row to a sum.
@@ -76,7 +124,7 @@ static float16 add_row(float16 sum, const float16* w, __global const float* valu
 
 __kernel void filter_pass(__global const float* weights, __global const float* in, __global float* out,
                           const rpf_network_pass p) {
-  const int plane = plane_of(&p.weights, p.embedding + RPF_GUIDES + 1), in_plane = plane_of(&p.in, p.values);
+  const int plane = plane_of(&p.weights, RPF_PASS_PAIRS + 1), in_plane = plane_of(&p.in, p.values);
   for (int i = first_part(); i < end_part(&p.area); i += (int)get_global_size(0)) {
     const int y = row_of_part(&p.area, i), begin = begin_of_part(&p.area, i), end = end_of_part(&p.area, i);
     // Rows of taps that are there: first_tap .. end_tap - 1 of five.
@@ -88,11 +136,10 @@ __kernel void filter_pass(__global const float* weights, __global const float* i
       __global const float* own = weights + row_at(&p.weights, y) + RPF_PLACES(x);
       float16 w[RPF_TAPS * RPF_TAPS], total = 0.0f;
       for (int j = first_tap; j < end_tap; ++j) {
-        const int other = first_y + (j - first_tap) * p.dilation;
+        // Of rows below nothing is read here, and they may not be there.
+        const int other = min(first_y + (j - first_tap) * p.dilation, y);
         float16* row = w + RPF_TAPS * j;
-        weigh_row(own, weights + row_at(&p.weights, other) + RPF_PLACES(x), p.embedding + RPF_GUIDES, plane, p.dilation,
-                  row);
-        if (other == y) row[RPF_PASS_REACH] = vload16(0, own + (p.embedding + RPF_GUIDES) * plane);
+        load_row(own, weights + row_at(&p.weights, other) + RPF_PLACES(x), j, plane, p.dilation, row);
         for (int t = 0; t < RPF_TAPS; ++t) total += row[t];
       }
       const float16 inverse = 1.0f / total;
@@ -105,7 +152,7 @@ __kernel void filter_pass(__global const float* weights, __global const float* i
         vstore16(sum * inverse, 0, result + k * in_plane + RPF_PLACES(x));
       }
     }
-    close_planes(result, in_plane, p.values, begin, end, p.area.width);
+    close_planes(result, in_plane, p.values, begin, end, p.area.width, -0.0f);
   }
 }
 

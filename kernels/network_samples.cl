@@ -182,10 +182,10 @@ static void guide_statistics(__global const float* record, __global const int* c
 static int plane_of(const rpf_grid* grid, int planes) { return grid->pitch / max(planes, 1); }
 
 // Beside the planes of a row stands what adds nothing to a sum, whatever its weight: fma(0, -0, s) is s.
-static void close_planes(__global float* row, int plane, int planes, int begin, int end, int width) {
+static void close_planes(__global float* row, int plane, int planes, int begin, int end, int width, float beside) {
   for (int k = 0; k < planes; ++k) {
-    for (int x = 0; begin == 0 && x < RPF_MARGIN; ++x) row[k * plane + x] = -0.0f;
-    for (int x = RPF_MARGIN + width; end == width && x < plane; ++x) row[k * plane + x] = -0.0f;
+    for (int x = 0; begin == 0 && x < RPF_MARGIN; ++x) row[k * plane + x] = beside;
+    for (int x = RPF_MARGIN + width; end == width && x < plane; ++x) row[k * plane + x] = beside;
   }
 }
 
@@ -204,7 +204,7 @@ __kernel void see_pixels(__global const float* records, __global const int* guid
     out.guides = guides + row_at(&guide_grid, y) + RPF_MARGIN + x;
     __global float* albedo_row = albedo + row_at(&albedo_grid, y);
     out.albedo = albedo_row + RPF_MARGIN + x;
-    close_planes(albedo_row, out.albedo_plane, RPF_ALBEDO_SUMS, x, x + 1, c.width);
+    close_planes(albedo_row, out.albedo_plane, RPF_ALBEDO_SUMS, x, x + 1, c.width, -0.0f);
     if (samples.count == 0) {
       no_samples(&c, &out);
       continue;
@@ -317,6 +317,6 @@ __kernel void sum_samples(__global const float* weights, __global const float* s
     float total = 0.0f;
     for (uint s = 0; s < samples.count; ++s) total += weights[samples.first + s];
     out[RPF_SUM_WEIGHT * plane] = total;
-    close_planes(row, plane, planes, x, x + 1, c.width);
+    close_planes(row, plane, planes, x, x + 1, c.width, -0.0f);
   }
 }

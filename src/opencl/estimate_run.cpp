@@ -42,6 +42,7 @@ EstimateRun::EstimateRun(Session& session, const NetworkProgram& program, const 
       samples_(session, program, job, items, keep_all ? &sample_trace_ : nullptr),
       halve_(program.kernel("halve")),
       embed_(program.kernel("embed")),
+      weigh_pixels_(program.kernel("weigh_pixels")),
       filter_pass_(program.kernel("filter_pass")),
       finish_(program.kernel("finish")) {
   for (std::size_t i = 0; i < steps_.grids.size(); ++i) {
@@ -87,6 +88,12 @@ void EstimateRun::run_embed(const EstimateStep& step, int first, int end) {
          head.stored, job_.plan.network->embedding);
 }
 
+void EstimateRun::run_weigh(const EstimateStep& step, int first, int end) {
+  const DeviceGrid &embedded = grid(step.in.front()), &out = grid(step.out.front());
+  launch(weigh_pixels_, embedded.buffer, out.buffer, area(step, first, end), embedded.rows, out.rows,
+         kernel::rpf_dilation(static_cast<kernel::uint>(step.number)), embedded.stored - 1);
+}
+
 void EstimateRun::run_pass(const EstimateStep& step, int first, int end) {
   const DeviceGrid &in = grid(step.in[0]), &weights = grid(step.in[1]), &out = grid(step.out.front());
   const kernel::rpf_network_pass pass{area(step, first, end),
@@ -94,7 +101,6 @@ void EstimateRun::run_pass(const EstimateStep& step, int first, int end) {
                                       in.rows,
                                       out.rows,
                                       kernel::rpf_dilation(static_cast<kernel::uint>(step.number)),
-                                      job_.plan.network->embedding,
                                       in.stored};
   launch(filter_pass_, weights.buffer, in.buffer, out.buffer, pass);
 }
@@ -123,6 +129,9 @@ void EstimateRun::run_step(const EstimateStep& step, int first, int end, const P
       break;
     case Kind::embed:
       run_embed(step, first, end);
+      break;
+    case Kind::weigh:
+      run_weigh(step, first, end);
       break;
     case Kind::pass:
       run_pass(step, first, end);

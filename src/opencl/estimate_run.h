@@ -28,6 +28,7 @@ class EstimateRun {
   void run_layer(const EstimateStep& step, const DeviceLayer& layer, int first, int end);
   void run_halve(const EstimateStep& step, int first, int end);
   void run_embed(const EstimateStep& step, int first, int end);
+  void run_weigh(const EstimateStep& step, int first, int end);
   void run_pass(const EstimateStep& step, int first, int end);
   void run_finish(const EstimateStep& step, int first, int end);
   template <typename... Values>
@@ -47,7 +48,7 @@ class EstimateRun {
   EstimateSteps steps_;
   std::vector<DeviceGrid> grids_;
   SampleStage samples_;
-  cl::Kernel halve_, embed_, filter_pass_, finish_;
+  cl::Kernel halve_, embed_, weigh_pixels_, filter_pass_, finish_;
 };
 
 }  // namespace rpf

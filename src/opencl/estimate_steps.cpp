@@ -63,9 +63,17 @@ class Builder {
     return out_.pipeline.add_grid(grid.height);
   }
 
-  static int reach(Kind kind, int number, const Network& network) {
-    if (kind == Kind::layer) return network.layers[static_cast<std::size_t>(number)].taps == 9 ? 1 : 0;
-    return kind == Kind::pass ? RPF_PASS_REACH * kernel::rpf_dilation(static_cast<uint>(number)) : 0;
+  /// What a step reads of the first of its grids, or of the others. A pixel and another one weigh the same in each
+  /// other's mean: only the pairs with those further on are made, and passes look for the others further back.
+  RowPipeline::Read read(Kind kind, int number, int grid, bool is_first) const {
+    if (kind == Kind::layer) {
+      const int around = network_.layers[static_cast<std::size_t>(number)].taps == 9 ? 1 : 0;
+      return {grid, around, around};
+    }
+    const int reach = kind == Kind::weigh || kind == Kind::pass
+                          ? RPF_PASS_REACH * kernel::rpf_dilation(static_cast<uint>(number))
+                          : 0;
+    return {grid, kind == Kind::pass ? reach : 0, kind == Kind::weigh || is_first ? reach : 0};
   }
 
   int make(Kind kind, int number, const std::vector<int>& in, const EstimateGrid& grid, int level, double row_work) {
@@ -77,8 +85,9 @@ class Builder {
                double row_work) {
     std::vector<RowPipeline::Read> reads;
     for (const int grid : in) {
-      const bool coarser = kind == Kind::layer && in.size() > 1 && grid == in.front();
-      reads.push_back({grid, reach(kind, number, network_), kind == Kind::halve ? 1 : coarser ? -1 : 0});
+      const bool is_first = grid == in.front(), coarser = kind == Kind::layer && in.size() > 1 && is_first;
+      reads.push_back(read(kind, number, grid, is_first));
+      reads.back().octave = kind == Kind::halve ? 1 : coarser ? -1 : 0;
     }
     const int width = out_.grids[static_cast<std::size_t>(out.front())].width;
     out_.pipeline.add_step(out, reads, rows_at_once(kind, width, level));
@@ -121,11 +130,13 @@ class Builder {
   int passes(int last, int values, int first, int count) {
     for (int pass = first; pass < first + count; ++pass) {
       const int terms = network_.embedding + RPF_GUIDES, kept = out_.grids[static_cast<std::size_t>(values)].values;
-      const int weights =
+      const int embedded =
           make(Kind::embed, pass, {head(last, pass), guides_}, planes("", terms + 1), 0, 10.0 * window_.width * terms);
+      const int weights = make(Kind::weigh, pass, {embedded}, planes("", RPF_PASS_PAIRS + 1), 0,
+                               1.0 * RPF_PASS_PAIRS * window_.width * (terms + 15));
       // Values first: they come from the samples, which may be gone by the time that all weights are there.
       values = make(Kind::pass, pass, {values, weights}, planes("pass" + std::to_string(pass), kept), 0,
-                    25.0 * window_.width * (terms + 15 + kept));
+                    25.0 * window_.width * (1 + kept));
     }
     return values;
   }

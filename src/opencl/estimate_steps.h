@@ -22,7 +22,7 @@ struct EstimateGrid {
 };
 
 struct EstimateStep {
-  enum class Kind { see, layer, halve, head, sum, embed, pass, finish };
+  enum class Kind { see, layer, halve, head, sum, embed, weigh, pass, finish };
   Kind kind = Kind::layer;
   int number = 0;            ///< of the layer in the network, or of the pass; the head for samples is before_passes
   int level = 0;             ///< of what it makes

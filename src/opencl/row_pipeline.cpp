@@ -21,12 +21,12 @@ int RowPipeline::add_step(const std::vector<int>& grids, const std::vector<Read>
 }
 
 int RowPipeline::first_read(const Read& read, int first) {
-  const int row = std::max(first - read.reach, 0);
+  const int row = std::max(first - read.above, 0);
   return read.octave > 0 ? row * 2 : read.octave < 0 ? row / 2 : row;
 }
 
 int RowPipeline::end_read(const Read& read, int end) const {
-  const int last = end - 1 + read.reach;
+  const int last = end - 1 + read.below;
   const int row = read.octave > 0 ? last * 2 + 1 : read.octave < 0 ? last / 2 : last;
   return std::min(row + 1, grids_[index(read.grid)].height);
 }

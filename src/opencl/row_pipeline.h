@@ -11,10 +11,11 @@ namespace rpf {
 /// as many rows as its readers are behind it: found by going through all steps once without doing anything.
 class RowPipeline {
  public:
-  /// What a step reads of a grid for its rows first .. end - 1: `reach` more each way, and of a grid that is finer by a
-  /// level (octave 1) two rows a row, of a coarser one (-1) a row for two. Rows outside the grid are not read.
+  /// What a step reads of a grid for its rows first .. end - 1: so many more above and below, and of a grid that is
+  /// finer by a level (octave 1) two rows a row, of a coarser one (-1) a row for two. Rows outside the grid are not
+  /// read.
   struct Read {
-    int grid = 0, reach = 0, octave = 0;
+    int grid = 0, above = 0, below = 0, octave = 0;
   };
 
   /// A grid of so many rows. Returns its number, 0, 1 ...

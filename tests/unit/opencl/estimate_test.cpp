@@ -50,9 +50,10 @@ class RowsOnly {
     const int height = grid(from).height, own = grid(step.out.front()).height;
     if (step.kind == EstimateStep::Kind::halve) {
       for (int y = 2 * row; y < std::min(2 * row + 2, height); ++y) must_be_there(from, y);
-    } else if (step.kind == EstimateStep::Kind::pass) {
+    } else if (step.kind == EstimateStep::Kind::pass || step.kind == EstimateStep::Kind::weigh) {
       const int dilation = kernel::rpf_dilation(static_cast<kernel::uint>(step.number));
-      for (int j = -2; j <= 2; ++j)
+      const bool weighs = step.kind == EstimateStep::Kind::weigh, weighs_with = from != step.in.front();
+      for (int j = weighs ? 0 : -2; j <= (weighs_with ? 0 : 2); ++j)
         if (row + j * dilation >= 0 && row + j * dilation < height) must_be_there(from, row + j * dilation);
     } else if (step.kind == EstimateStep::Kind::layer && step.number > 2) {
       const bool coarse = step.in.size() > 1 && from == step.in.front();
