@@ -50,17 +50,43 @@ bool is_usable(const float* record, const Columns& columns, CleanFindings& findi
   return false;
 }
 
-/// Whether nothing in a record needs a closer look. Compares bits, all of them, in vectors: most records are like that.
-bool is_plain(const float* record, std::size_t size, const Columns& columns) {
-  std::int32_t limit, bits, beyond = 0;
-  std::memcpy(&limit, &largest_value, sizeof limit);
+std::int32_t bits_of(const float& value) {
+  std::int32_t bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+/// What a record lacks, of its hits and otherwise.
+struct Gaps {
+  bool others = false;  ///< of what every sample has, or values that have to be marked as missing yet
+  bool any_first = false, all_first = false, any_second = false, all_second = false;
+};
+
+/// Compares bits, all of them, in vectors.
+Gaps gaps_of(const float* record, std::size_t size, const Columns& columns) {
+  const std::int32_t limit = bits_of(largest_value), marked = bits_of(missing);
+  std::int32_t others = 0, any_first = 0, all_first = ~0, any_second = 0, all_second = ~0;
   for (std::size_t c = 0; c < size; ++c) {
-    std::memcpy(&bits, record + c, sizeof bits);
-    beyond |= (bits & std::numeric_limits<std::int32_t>::max()) > limit ? 1 : 0;
+    const std::int32_t bits = bits_of(record[c]), first = columns.is_first[c], second = columns.is_second[c];
+    const std::int32_t gap = (bits & std::numeric_limits<std::int32_t>::max()) > limit ? ~0 : 0;
+    others |= gap & (~(first | second) | (bits ^ marked));
+    any_first |= gap & first;
+    all_first &= gap | ~first;
+    any_second |= gap & second;
+    all_second &= gap | ~second;
   }
+  return {others != 0, any_first != 0, all_first != 0, any_second != 0, all_second != 0};
+}
+
+/// Whether nothing in a record needs a closer look; most are like that. A ray that hit nothing, once or twice, has no
+/// features, and they are marked as missing already.
+bool is_plain(const float* record, std::size_t size, const Columns& columns) {
   const auto is_negative = [&](std::size_t c) { return record[c] < 0; };
-  return beyond == 0 && std::none_of(std::begin(columns.color), std::end(columns.color), is_negative) &&
-         !(columns.weight && is_negative(*columns.weight));
+  if (std::any_of(std::begin(columns.color), std::end(columns.color), is_negative)) return false;
+  if (columns.weight && is_negative(*columns.weight)) return false;
+  const Gaps gaps = gaps_of(record, size, columns);
+  const bool is_miss = gaps.all_first && (!columns.hit || record[*columns.hit] == 0);
+  return !gaps.others && (!gaps.any_first || is_miss) && (!gaps.any_second || gaps.all_second);
 }
 
 bool is_missing(float value) { return !(std::fabs(value) <= largest_value); }
@@ -203,12 +229,15 @@ Columns find_columns(const SampleBuffer& samples, bool clamp_infinite) {
   c.weight = layout.find("weight");
   c.hit = layout.find("feature.hit");
   c.normal = all_of(layout, {"feature.N.X", "feature.N.Y", "feature.N.Z"});
+  c.is_first.resize(layout.size());
+  c.is_second.resize(layout.size());
   for (std::size_t i = 0; i < layout.size(); ++i) {
     if (is_random_slot(layout.slots[i])) c.random.push_back(i);
     if (!is_feature_slot(layout.slots[i])) continue;
     const std::string group = group_of(layout.slots[i]);
     if (group == "P") c.position.push_back(i);
     (is_second_hit(group) ? c.second_hit : c.first_hit).push_back(i);
+    (is_second_hit(group) ? c.is_second : c.is_first)[i] = ~0;
   }
   return c;
 }

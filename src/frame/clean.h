@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -25,6 +26,7 @@ struct Columns {
   std::vector<std::size_t> position;               ///< of the first hit: the components there are
   std::vector<std::size_t> random;                 ///< random parameters
   std::vector<std::size_t> first_hit, second_hit;  ///< the features of each
+  std::vector<std::int32_t> is_first, is_second;   ///< [column] all bits where it is one of these, else none
   /// Of R, G, B: what an infinite value stands for; 0 where nothing does.
   float largest[3] = {0, 0, 0};
 };

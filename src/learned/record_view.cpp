@@ -32,12 +32,13 @@ constexpr NamedInput named_inputs[] = {
 
 using Three = std::array<std::size_t, 3>;
 
+// Written out: as algorithms of the standard library they are calls, a few for each sample.
 bool is_there(const float* record, const Three& columns) {
-  return std::none_of(columns.begin(), columns.end(), [&](std::size_t c) { return std::isnan(record[c]); });
+  return !std::isnan(record[columns[0]]) && !std::isnan(record[columns[1]]) && !std::isnan(record[columns[2]]);
 }
 
 bool is_zero(const float* record, const Three& columns) {
-  return std::all_of(columns.begin(), columns.end(), [&](std::size_t c) { return record[c] == 0; });
+  return record[columns[0]] == 0 && record[columns[1]] == 0 && record[columns[2]] == 0;
 }
 
 float or_zero(float value) { return std::isnan(value) ? 0.0F : value; }
