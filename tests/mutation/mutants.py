@@ -340,6 +340,9 @@ MUTANTS = [
            "BenchPlan.KeysTellMeasurementsApart", "sweep: a setting is known by its label"),
 
     # ---------------------------------------------------------------- extremes: the properties of docs/stability.md
+    Mutant("gaps_second", CLEAN, "(!gaps.any_second || gaps.all_second)", "true", "Clean.CountsWhatIsMissing*", "half a second hit is none"),
+    Mutant("gaps_hit", CLEAN, "gaps.all_first && (!columns.hit || record[*columns.hit] == 0)", "gaps.all_first",
+           "Clean.CountsWhatIsMissing*", "a hit without features is none"),
     Mutant("extremes_alpha_uncounted", CLEAN, "findings.alpha.add(pixel);", "findings.negative.add(pixel);",
            "extremes BadAlpha.IsZeroAndCounted", "input: a bad alpha counts as negative radiance"),
     Mutant("extremes_empty_uncounted", CLEAN, "findings.empty.add(first + place);", "findings.empty.add(0);",

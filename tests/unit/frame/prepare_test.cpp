@@ -80,6 +80,31 @@ TEST(Clean, NotesWhatItFoundAndWhereFirst) {
   EXPECT_EQ(note.y, 1);
 }
 
+/// Takes a sample all features of its first or of its second hit.
+void take_hit(SampleBuffer& samples, std::uint32_t sample, bool second, float none = missing) {
+  for (const std::string& slot : samples.layout.slots)
+    if (is_feature_slot(slot) && (group_of(slot).back() == '2') == second) value_of(samples, sample, slot) = none;
+}
+
+TEST(Clean, CountsWhatIsMissingAtHitsAndNotWhereNothingIsHit) {
+  SampleBuffer samples = test::every_input({4, 3, 1, 1});
+  test::fill(samples, "feature.hit", 1);
+  take_hit(samples, 1, true);  // no second hit
+  take_hit(samples, 2, false);
+  value_of(samples, 2, "feature.hit") = 0;         // no hit
+  take_hit(samples, 3, false);                     // a hit without features
+  value_of(samples, 4, "feature.N2.X") = missing;  // half a second hit
+  take_hit(samples, 6, false, 1e30F);              // no hit, said in another way
+  value_of(samples, 6, "feature.hit") = 0;
+  const PreparedFrame prepared = prepare(samples, {});
+  ASSERT_FALSE(prepared.notes.empty());
+  const InputNote& note = prepared.notes.back();
+  EXPECT_EQ(note.what.rfind("samples with missing values of", 0), 0U) << note.what;
+  EXPECT_EQ(note.count, 2U);
+  EXPECT_EQ(note.x, 3);
+  for (const float value : prepared.frame.records) ASSERT_FALSE(value > 1e15F);
+}
+
 TEST(Records, AreTheSameInPlaceAndElsewhereAlsoWhereTheyGrow) {
   SampleBuffer tight = test::defocused_edge();
   tight.values.shrink_to_fit();
