@@ -1,6 +1,7 @@
 """Writes a checkpoint's network as the file that `rpf --model` reads (docs/network.md, "File").
 
-Usage: export.py CHECKPOINT OUT.rpfnet --name NAME [--note TEXT]
+Usage: export.py CHECKPOINT OUT.rpfnet --name NAME [--note TEXT] [--start NETWORK.rpfnet --share 0.6]
+--start: the network that training went on from; of its way from there this share is taken, which errs less on new frames than either end.
 """
 import argparse
 import json
@@ -47,6 +48,13 @@ def network_of(state):
     return network
 
 
+def part_of_the_way(start, end, share):
+    """Weights between those of two networks of one shape."""
+    first = start.state_dict()
+    end.load_state_dict({name: torch.lerp(first[name], last, share) for name, last in end.state_dict().items()})
+    return end
+
+
 def any_network(path):
     """The network of a checkpoint, or of a file of ours."""
     return read(path) if str(path).endswith(".rpfnet") else network_of(torch.load(path, weights_only=False))
@@ -58,10 +66,16 @@ def main():
     parser.add_argument("out")
     parser.add_argument("--name", required=True)
     parser.add_argument("--note", default="")
+    parser.add_argument("--start")
+    parser.add_argument("--share", type=float, default=1)
     args = parser.parse_args()
     state = torch.load(args.checkpoint, weights_only=False)
     facts = f"seed {state['seed']}, {state['step']} steps, {state['seconds'] / 3600:.2f} hours, PyTorch {state['torch']}"
-    write(network_of(state), args.out, args.name, f"{args.note}{'; ' if args.note else ''}{facts}")
+    network = network_of(state)
+    if args.start:
+        network = part_of_the_way(any_network(args.start), network, args.share)
+        facts += f", {args.share:g} of the way"
+    write(network, args.out, args.name, f"{args.note}{'; ' if args.note else ''}{facts}")
 
 
 if __name__ == "__main__":
