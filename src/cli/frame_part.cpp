@@ -21,6 +21,7 @@ constexpr const char *rows_attribute = "rpf:rows", *frame_attribute = "rpf:frame
 struct Part {
   std::string path;
   Image image;
+  Window frame;  ///< as the file says
 
   int first() const { return image.data_window.y; }
   int end() const { return image.data_window.y + image.data_window.height; }
@@ -68,10 +69,21 @@ void check_rows(const std::vector<Part>& parts, const Window& frame) {
     refuse(fmt::format("rows {} are missing; filter them with --rows and join all parts", fmt::join(missing, ", ")));
 }
 
+/// No pixels where the file does not say which.
+Window frame_of(const Image& image) {
+  try {
+    return window_of(frame_attribute, text_in(image, frame_attribute));
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 Part read_part(const std::string& path) {
-  Part part{path, read_image(path)};
-  if (text_in(part.image, rows_attribute) != rows_text(part.image.data_window) ||
-      text_in(part.image, frame_attribute).empty())
+  Part part{path, read_image(path), {}};
+  const Window& window = part.image.data_window;
+  part.frame = frame_of(part.image);
+  if (text_in(part.image, rows_attribute) != rows_text(window) || part.frame.x != window.x ||
+      part.frame.width != window.width)
     refuse(fmt::format("\"{}\" is no part of a frame; join what rpf --rows writes, as .exr", path));
   return part;
 }
@@ -118,7 +130,7 @@ Image joined(const std::vector<std::string>& paths) {
   std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.first() < b.first(); });
   for (const Part& part : parts) check_same(parts.front(), part);
   Image whole = std::move(parts.front().image);
-  const Window frame = window_of(frame_attribute, text_in(whole, frame_attribute));
+  const Window frame = parts.front().frame;
   parts.front().image.data_window = whole.data_window;
   check_rows(parts, frame);
   std::size_t values = whole.pixels.size();

@@ -2,7 +2,10 @@
 import subprocess
 import unittest
 
+import numpy as np
+
 from command_case import RPF, CommandCase
+from small_files import write_exr
 
 PRESET = ["--preset", "fast"]
 PUBLISHED = ["--profile", "thesis", "--boxes", "7,5"]
@@ -141,6 +144,13 @@ class PartsTest(CommandCase):
         expect_refused([parts[0], self.part("2/4", *PUBLISHED, name="input.exr"), *parts[2:]], "another input")
         self.expect(run(self.frame, "-o", self.folder / "image.exr", *PUBLISHED, "-q"), 0)
         expect_refused([self.folder / "image.exr"], "is no part of a frame")
+
+    def test_a_part_of_other_columns_than_its_frame_is_none(self):
+        path, zeros = self.folder / "odd.exr", np.zeros((6, 8), np.float32)
+        for frame in ("900x6+0+0", "8x6+3+0", "some", ""):
+            marks = [("rpf:rows", "string", b"0-5"), ("rpf:frameWindow", "string", frame.encode())]
+            write_exr(path, {channel: zeros for channel in "RGB"}, attributes=marks)
+            self.expect(run("join", path, "-o", self.folder / "whole.exr"), 3, "odd.exr", "is no part of a frame")
 
     def test_parts_that_are_there_are_skipped(self):
         first = self.part("1/2", *PRESET)

@@ -312,7 +312,7 @@ MUTANTS = [
     Mutant("merge_row_order", "src/frame/merge_rows.cpp", "in_order(parts_[b].rows->read(row, row + 1), frames[a])",
            "parts_[b].rows->read(row, row + 1)", "Merge.RefusesTheSameSamplesTwice", "merge: slots in another order hide copies"),
     Mutant("weight_groups", "src/cpu/weighting.cpp", "first = i / RPF_GROUP * RPF_GROUP;", "first = 0;",
-           "oracle crowded weights", "every own sample of a crowded pixel has the stretches of the first group"),
+           "oracle crowded filtered", "every own sample of a crowded pixel has the stretches of the first group"),
     Mutant("raw_byte_order", "src/io/spread.cpp", "b[1] << 8U | b[2] << 16U", "b[1] << 16U | b[2] << 8U",
            "Raw.IsRecognizedByItsContentAndDescribed", "raw: bytes in another order"),
     Mutant("raw_unused_plane", RAW_READER, "plane += checked_.info.sample_count * word;",
