@@ -6,7 +6,12 @@ import scene_frame
 from report import Report
 from tolerances import TOLERANCE
 
-LENS, LEAF, PLANE, TENSOR, LEAST, ROUND, MOST_LEAVES = 16.0, 4, 32, 8, 1e-9, 0.01, 64
+LENSES, LEAF, PLANE, TENSOR, LEAST, ROUND, MOST_LEAVES = 15, 4, 32, 8, 1e-9, 0.01, 64
+
+
+def lens_of(case):
+    """What lens and time are worth on the film, as float32 has it."""
+    return np.float32(max(case["width"], case["height"])) / np.float32(LENSES)
 
 
 def space(case):
@@ -16,7 +21,7 @@ def space(case):
     for name in ("random.lens.U", "random.lens.V", "random.time"):
         values = scene_frame.channel(case, name) if name in case["channels"] else np.zeros(len(columns[0]))
         there.append(not scene_frame.is_constant(values))
-        columns.append(LENS * values if there[-1] else 0 * columns[0])
+        columns.append((lens_of(case) * values.astype(np.float32)).astype(float) if there[-1] else 0 * columns[0])
     return np.stack(columns, axis=1), np.array(there)
 
 
@@ -108,7 +113,8 @@ class Space:
 def integrate(case, frame):
     """Sums [pixels, 3] over the points, their number, and of each pixel the part that rounding may change."""
     values = Space(case, frame.values)
-    points = light_field.sequence(case["settings"]["views"])[:, [0, 1, 3, 4, 2]] * np.where(values.there, [1, 1, LENS, LENS, LENS], 0)
+    lens = float(lens_of(case))
+    points = light_field.sequence(case["settings"]["views"])[:, [0, 1, 3, 4, 2]] * np.where(values.there, [1, 1, lens, lens, lens], 0)
     sums, close = np.zeros((len(frame.counts), 3)), np.zeros(len(frame.counts))
     for pixel in range(len(frame.counts)):
         for point in points.astype(np.float32).astype(float):
