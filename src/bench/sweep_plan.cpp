@@ -73,7 +73,8 @@ void name_scene_files(SweepFrame& frame, const std::string& folder) {
   const auto file = [&](int samples, const char* kind) {
     return (fs::path(folder) / fmt::format("{}-{}spp.{}.exr", stem, samples, kind)).string();
   };
-  const std::string how = std::string(frame.penumbra ? "-penumbra" : "") + (frame.adapted ? "-adapted" : "");
+  const std::string how = std::string(frame.penumbra ? "-penumbra" : "") + (frame.lightfield ? "-lightfield" : "") +
+                          (frame.adapted ? "-adapted" : "");
   frame.samples = file(frame.samples_per_pixel, "samples");
   frame.samples.insert(frame.samples.size() - std::string(".samples.exr").size(), how);
   if (frame.reference_samples > 0) frame.reference = file(frame.reference_samples, "reference");
@@ -92,6 +93,7 @@ SampleBuffer render_samples(const SweepFrame& frame, const Control& control) {
   SceneOptions options =
       scene_options(frame, frame.adapted ? adapted_from : frame.samples_per_pixel, SceneSampler::random);
   options.penumbra = frame.penumbra;
+  options.lightfield = frame.lightfield;
   SampleBuffer samples = render_scene(frame.scene, options, control);
   options.samples = 1;
   for (int count = adapted_from, more = 0; frame.adapted && count < frame.samples_per_pixel; count += more) {

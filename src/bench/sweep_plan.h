@@ -21,6 +21,7 @@ struct SweepFrame {
   int width = 240, height = 135, samples_per_pixel = 4;
   int reference_samples = 0;          ///< a pixel; 0: no reference
   bool penumbra = false;              ///< of a scene: rendered with SceneOptions::penumbra
+  bool lightfield = false;            ///< likewise, with SceneOptions::lightfield
   bool adapted = false;               ///< of a scene: rounds as rpf adapt has them, from 4 samples a pixel on
   std::vector<std::string> settings;  ///< names of those to run on it; empty: all
 };

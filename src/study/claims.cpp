@@ -1,4 +1,4 @@
-// What the papers of 2011 and 2012 say, as statements that figures decide.
+// What the papers of 2008 to 2012 say, as statements that figures decide.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -97,20 +97,23 @@ std::vector<Claim> claims_of_papers(const Findings& findings) {
   const auto less = [&](const char* statement, const char* a, const char* b, const Quantity& quantity) {
     return less_than(findings, statement, a, b, quantity);
   };
-  return {less("cross-bilateral: features keep more than colors do", "cross-bilateral", "bilateral", error),
-          less("gem (Rousselle et al. 2011): a Gaussian chosen for each pixel is better than one for all", "gem",
-               "Gaussian", error),
-          less("nlm (Rousselle et al. 2012): non-local means are better than Gaussians of chosen width", "nlm", "gem",
-               error),
-          less("sbf (Li et al. 2012): widths chosen by Stein's risk are better than one width", "sbf",
-               "cross-bilateral", error),
-          less("sbf: better than Gaussians of chosen width", "sbf", "gem", error),
-          less("sbf: better than Random Parameter Filtering", "sbf", "paper", error),
-          less("sbf: takes less time than Random Parameter Filtering", "sbf", "paper", time),
-          worth_four_times(findings, "paper (Sen and Darabi 2012): as good as four times the samples", "paper"),
-          worth_four_times(findings, "thesis (Van Campenhout): as good as four times the samples", "thesis"),
-          worth_four_times_in(
-              findings, "axis-aligned (Mehta et al. 2012): as good as four times the samples in a penumbra", penumbra)};
+  return {
+      less("cross-bilateral: features keep more than colors do", "cross-bilateral", "bilateral", error),
+      less("gem (Rousselle et al. 2011): a Gaussian chosen for each pixel is better than one for all", "gem",
+           "Gaussian", error),
+      less("nlm (Rousselle et al. 2012): non-local means are better than Gaussians of chosen width", "nlm", "gem",
+           error),
+      less("sbf (Li et al. 2012): widths chosen by Stein's risk are better than one width", "sbf", "cross-bilateral",
+           error),
+      less("sbf: better than Gaussians of chosen width", "sbf", "gem", error),
+      less("sbf: better than Random Parameter Filtering", "sbf", "paper", error),
+      less("sbf: takes less time than Random Parameter Filtering", "sbf", "paper", time),
+      worth_four_times(findings, "paper (Sen and Darabi 2012): as good as four times the samples", "paper"),
+      worth_four_times(findings, "thesis (Van Campenhout): as good as four times the samples", "thesis"),
+      worth_four_times(findings, "multidim (Hachisuka et al. 2008): as good as four times the samples", "multidim"),
+      worth_four_times(findings, "lightfield (Lehtinen et al. 2011): as good as four times the samples", light_field),
+      worth_four_times_in(findings, "axis-aligned (Mehta et al. 2012): as good as four times the samples in a penumbra",
+                          penumbra)};
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The related work of the thesis beside ours: filters of 2011 and 2012, both profiles, the presets, Open Image Denoise.
+// The related work of the thesis beside ours: filters of 2008 to 2012, both profiles, the presets, Open Image Denoise.
 #include "study/contemporaries.h"
 
 #include <fmt/format.h>
@@ -19,6 +19,7 @@ const std::vector<Setting> settings = {{"plain mean", plain_mean},
                                        {"gem", "--method gem"},
                                        {"nlm", "--method nlm"},
                                        {"sbf", "--method sbf"},
+                                       {"multidim", "--method multidim"},
                                        {"thesis", "--profile thesis"},
                                        {"paper", "--profile paper"},
                                        {"fast", "--preset fast"},
@@ -28,9 +29,10 @@ const std::vector<Setting> settings = {{"plain mean", plain_mean},
 /// In the order of tables and plots.
 std::vector<std::string> labels(const Findings& findings) {
   std::vector<std::string> all;
-  all.reserve(settings.size() + 2);
+  all.reserve(settings.size() + 3);
   for (const Setting& setting : settings) all.emplace_back(setting.label);
   all.emplace_back(axis_aligned);
+  all.emplace_back(light_field);
   if (findings.has(open_image_denoise_label)) all.emplace_back(open_image_denoise_label);
   return all;
 }
@@ -53,9 +55,11 @@ const char* options_of(const std::string& label) {
 void add_frame(std::vector<Run>& runs, const bench::SweepFrame& frame) {
   for (const Setting& setting : settings) runs.push_back({setting.label, frame, setting.options});
   if (has_open_image_denoise()) runs.push_back({open_image_denoise_label, frame, plain_mean, true});
-  bench::SweepFrame with_penumbra = frame;  // apart: the others would take its channels for features
-  with_penumbra.penumbra = true;
+  // Apart: the others would take their channels for features.
+  bench::SweepFrame with_penumbra = frame, with_lightfield = frame;
+  with_penumbra.penumbra = with_lightfield.lightfield = true;
   runs.push_back({axis_aligned, with_penumbra, "--method axis-aligned"});
+  runs.push_back({light_field, with_lightfield, "--method lightfield"});
 }
 
 const Quantity error = error_named("relMSE"), cpu = cpu_seconds();
@@ -152,8 +156,7 @@ void tell_what_is_missing(const Findings& findings, Story& story) {
   story.paragraph(
       "No filters of recorded samples are: sampling of visibility and semi-analytical visibility, which decide what "
       "is traced; compressive estimation, which solves for a picture from samples placed for that; the indirect light "
-      "field, which traces the recorded light again. rpf does not have the light field of Lehtinen et al. (2011) and "
-      "the reconstruction of Hachisuka et al. (2008).");
+      "field, which traces the recorded light again.");
 }
 
 }  // namespace

@@ -8,7 +8,8 @@ namespace rpf::study {
 /// The label of a run whose samples went where the noise is.
 inline std::string adapted(const std::string& label) { return label + ", adaptive"; }
 
-constexpr const char *axis_aligned = "axis-aligned", *open_image_denoise_label = "Open Image Denoise";
+constexpr const char *axis_aligned = "axis-aligned", *light_field = "lightfield",
+                     *open_image_denoise_label = "Open Image Denoise";
 
 /// What was filtered with adaptive samples too; against the same number of samples everywhere.
 inline const std::vector<const char*> adapted_labels = {"plain mean", "gem", "nlm", "sbf", "balanced"};

@@ -153,19 +153,19 @@ class StudyTest(CommandCase):
         return run("contemporaries", "-o", self.study, *SIZE, env={**os.environ, "LD_LIBRARY_PATH": libraries})
 
     def test_contemporaries_with_open_image_denoise_and_without(self):
-        self.expect(self.contemporaries(STAND_IN), 0, "66 runs measured, 0 were there")
+        self.expect(self.contemporaries(STAND_IN), 0, "74 runs measured, 0 were there")
         self.expect_whole("contemporaries")
         document = self.json("contemporaries")
-        self.assertEqual(len(document["verdicts"]), 19)
+        self.assertEqual(len(document["verdicts"]), 21)
         for verdict in document["verdicts"]:
             self.assertRegex(verdict["measured"], r"at [\d, ]+ samples: (dof|soft-shadow) [\d.]+")
             self.assertIn("hold", verdict["verdict"])
         denoised = [r for r in document["runs"] if r["label"] == "Open Image Denoise"]
         self.assertEqual([round(r["energy"], 6) for r in denoised], [0.5] * 4)
-        self.assertEqual(len({r["label"] for r in document["runs"]}), 12 + 2 + 5)
-        self.expect(self.contemporaries(), 0, "0 runs measured, 62 were there")
+        self.assertEqual(len({r["label"] for r in document["runs"]}), 13 + 3 + 5)
+        self.expect(self.contemporaries(), 0, "0 runs measured, 70 were there")
         self.assertIn("Open Image Denoise was not found", self.page("contemporaries"))
-        self.assertEqual(len(self.json("contemporaries")["verdicts"]), 18)
+        self.assertEqual(len(self.json("contemporaries")["verdicts"]), 20)
 
     def expect_verdict(self, document, words, ratios, limit=1):
         """ratios: {scene: [at 4, 16 samples]}, worked out from the runs"""

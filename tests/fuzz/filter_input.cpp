@@ -115,11 +115,36 @@ rpf::Settings settings_of(Bytes& bytes, const Kind& kind) {
   return s;
 }
 
-/// One of the methods with fixed weights, which are compiled from box.cl, of those that filter pixels, or multidim.
-void choose_method(Bytes& bytes, rpf::Settings& s) {
-  s.method = bytes.one_of(std::array<rpf::Method, 8>{
+/// What the light field asks for beside positions, which some frames have: how surfaces move, and a camera, mostly one
+/// that there can be.
+void add_light_field(Bytes& bytes, rpf::SampleBuffer& samples) {
+  const std::size_t columns = samples.layout.size();
+  std::vector<float> values;
+  for (std::size_t sample = 0; sample < samples.sample_count(); ++sample) {
+    const auto record = samples.values.begin() + static_cast<std::ptrdiff_t>(sample * columns);
+    values.insert(values.end(), record, record + static_cast<std::ptrdiff_t>(columns));
+    for (int added = 0; added < 6; ++added) values.push_back(bytes.value());
+  }
+  samples.values = std::move(values);
+  for (const char* group : {"feature.opening.", "feature.closing."})
+    for (const char* axis : {"X", "Y", "Z"}) samples.layout.slots.push_back(std::string(group) + axis);
+  std::vector<float> to_camera = {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 2, 1},
+                     to_ndc = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 2};
+  for (std::vector<float>* matrix : {&to_camera, &to_ndc})
+    if (bytes.flag(4)) (*matrix)[bytes.byte() % matrix->size()] = bytes.value();
+  samples.metadata["worldToCamera"] = to_camera;
+  samples.metadata["worldToNDC"] = to_ndc;
+  samples.metadata["rpf:lensRadius"] = bytes.value();
+  samples.metadata["rpf:focusDistance"] = bytes.flag(4) ? bytes.value() : 3.0F;
+}
+
+/// One of the methods with fixed weights, which are compiled from box.cl, or of those of the whole frame.
+void choose_method(Bytes& bytes, FilterInput& input) {
+  rpf::Settings& s = input.settings;
+  s.method = bytes.one_of(std::array<rpf::Method, 9>{
       rpf::Method::gaussian, rpf::Method::bilateral, rpf::Method::cross_bilateral, rpf::Method::nlm, rpf::Method::gem,
-      rpf::Method::sbf, rpf::Method::axis_aligned, rpf::Method::multidim});
+      rpf::Method::sbf, rpf::Method::axis_aligned, rpf::Method::lightfield, rpf::Method::multidim});
+  if (s.method == rpf::Method::lightfield) add_light_field(bytes, input.samples);
   s.views = 7;
   if (bytes.flag(2)) s.sigma_color = bytes.value();
   if (bytes.flag(2)) s.sigma_feature = bytes.value();
@@ -187,7 +212,7 @@ FilterInput filter_input(const std::uint8_t* data, std::size_t size) {
   const bool crops = bytes.flag(4), breaks = bytes.flag(16);
   input.samples = samples_of(bytes, kind);
   if (crops) input.settings.crop = crop_of(bytes, input.samples.data_window);
-  if (bytes.flag(3)) choose_method(bytes, input.settings);
+  if (bytes.flag(3)) choose_method(bytes, input);
   if (bytes.flag(3)) choose_explanation(bytes, input);
   if (breaks) input.samples.first_sample[bytes.byte() % input.samples.first_sample.size()] = bytes.byte();
   return input;
