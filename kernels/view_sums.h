@@ -1,5 +1,5 @@
-// What pixels make of the samples that they are given one by one, view after view or point after point: the mean
-// (algorithm.md, (11.6) and (12.6)).
+// What pixels make of what they are given one by one, view after view or point after point: the mean (algorithm.md,
+// (11.7) and (12.6)).
 #ifndef RPF_VIEW_SUMS_H
 #define RPF_VIEW_SUMS_H
 // NOLINTBEGIN(modernize-*, cppcoreguidelines-*): this is OpenCL C too

@@ -3,15 +3,10 @@
 
 #define RPF_RUN_PIXELS 32  // a work-item's part of a row
 
-__kernel void find_ends(__global const float* tracks, const rpf_lens lens, __global float* ends, uint samples) {
-  for (uint i = (uint)get_global_id(0); i < samples; i += (uint)get_global_size(0))
-    rpf_find_ends(tracks + RPF_TRACK * (size_t)i, &lens, ends + RPF_ENDS * (size_t)i);
-}
-
 __kernel void move_samples(__global const float* tracks, const rpf_lens lens, const rpf_view view,
-                           __global float* places, uint samples) {
+                           __global float* places, __global float* ends, uint samples) {
   for (uint i = (uint)get_global_id(0); i < samples; i += (uint)get_global_size(0))
-    rpf_move(tracks + RPF_TRACK * (size_t)i, &lens, &view, places + RPF_PLACE * (size_t)i);
+    rpf_move(tracks + RPF_TRACK * (size_t)i, &lens, &view, places + RPF_PLACE * (size_t)i, ends + RPF_ENDS * (size_t)i);
 }
 
 // Rows row .. end - 1 of the frame.

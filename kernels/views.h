@@ -11,10 +11,12 @@ namespace rpf::kernel {
 #endif
 
 #define RPF_TRACK 10  // floats a sample: start 3, travel 3, bend 3 of (11.1), 1 where the ray left the scene
-#define RPF_ENDS 6    // floats a sample: x, y, shift as the shutter opens, and as it closes, from the lens's center
+#define RPF_ENDS 6    // floats a sample: x, y, shift shortly before the view, and after it
 #define RPF_PLACE 3   // floats a sample: x, y, depth in a view
 #define RPF_MOST_SEEN 32
-#define RPF_FARTHEST 3e38f  // depth of what a ray saw that left the scene
+#define RPF_LEAST_NEARNESS 1e-6f
+#define RPF_CLOSE_BY 0.0883883476f  // 1 / sqrt(128): (11.4) looks so far around a view, radii; in time half of it
+#define RPF_FARTHEST 3e38f          // depth of what a ray saw that left the scene
 
 // The camera. A row of four is what stands before a position's coordinates, and 1.
 typedef struct {
@@ -54,6 +56,11 @@ typedef struct {
   rpf_near near[RPF_MOST_SEEN];
 } rpf_seen;
 
+// Of those, front to back, first .. end - 1.
+typedef struct {
+  uint first, end;
+} rpf_surface;
+
 // What a view was sorted into. Samples of a cell follow each other, cells row by row: first[cell] .. first[cell + 1].
 typedef struct {
   const RPF_SHARED uint* first;
@@ -90,21 +97,20 @@ RPF_INLINE rpf_sighting rpf_sight(const RPF_SHARED float* track, const rpf_lens*
   return seen;
 }
 
-RPF_INLINE void rpf_find_ends(const RPF_SHARED float* track, const rpf_lens* lens, RPF_SHARED float* ends) {
-  for (int end = 0; end < 2; ++end) {
-    const rpf_sighting seen = rpf_sight(track, lens, 0.0f, 0.0f, (float)end);
-    ends[3 * end] = seen.x;
-    ends[3 * end + 1] = seen.y;
-    ends[3 * end + 2] = seen.shift;
-  }
-}
-
+// Where a sample stands in a view, and where shortly before and after it.
 RPF_INLINE void rpf_move(const RPF_SHARED float* track, const rpf_lens* lens, const rpf_view* view,
-                         RPF_SHARED float* place) {
+                         RPF_SHARED float* place, RPF_SHARED float* ends) {
   const rpf_sighting seen = rpf_sight(track, lens, view->u, view->v, view->time);
   place[0] = seen.x;
   place[1] = seen.y;
   place[2] = seen.depth;
+  for (int end = 0; end < 2; ++end) {
+    const float time = view->time + ((float)end - 0.5f) * RPF_CLOSE_BY;
+    const rpf_sighting then = rpf_sight(track, lens, view->u, view->v, time);
+    ends[3 * end] = then.x;
+    ends[3 * end + 1] = then.y;
+    ends[3 * end + 2] = then.shift;
+  }
 }
 
 RPF_INLINE int rpf_is_nearer(const rpf_near* a, const rpf_near* b) {
@@ -164,11 +170,11 @@ RPF_INLINE void rpf_look_around(const rpf_light_field* field, const rpf_cells* c
   }
 }
 
-// (11.4): whether one passes the other somewhere on the lens while the shutter is open.
+// (11.4): whether one passes the other close by the view, on the lens and in time.
 RPF_INLINE int rpf_crosses(const rpf_lens* lens, const RPF_SHARED float* ends, const rpf_near* a, const rpf_near* b) {
   const float x = b->x - a->x, y = b->y - a->y;
   const float across = lens->right[0] * x + lens->right[1] * y, along = lens->up[0] * x + lens->up[1] * y;
-  const float most = sqrt(across * across + along * along);
+  const float most = RPF_CLOSE_BY * sqrt(across * across + along * along);
   const RPF_SHARED float* from = ends + RPF_ENDS * (size_t)a->sample;
   const RPF_SHARED float* to = ends + RPF_ENDS * (size_t)b->sample;
   for (int end = 0; end < RPF_ENDS; end += 3) {
@@ -190,36 +196,58 @@ RPF_INLINE int rpf_covers(const rpf_seen* seen, uint first, uint end) {
   return end - first > 2;
 }
 
-// The sample that is seen at x, y of the film; RPF_NOBODY where there is none around.
-RPF_INLINE uint rpf_see(const rpf_light_field* field, const rpf_cells* cells, const RPF_SHARED float* ends, float x,
-                        float y) {
-  rpf_seen seen;
-  rpf_look_around(field, cells, x, y, &seen);
-  if (seen.count == 0) return RPF_NOBODY;
-  rpf_sort_by_depth(&seen);
-  uint first = 0, end = 1;
-  for (;;) {
+// The surface that is seen at x, y of the film, and what is around; empty where nothing is.
+RPF_INLINE rpf_surface rpf_see(const rpf_light_field* field, const rpf_cells* cells, const RPF_SHARED float* ends,
+                               float x, float y, rpf_seen* seen) {
+  rpf_look_around(field, cells, x, y, seen);
+  rpf_sort_by_depth(seen);
+  rpf_surface surface = {0, 0};
+  for (uint next = 0; next < seen->count; ++next) {
     int is_other = 0;
-    for (; end < seen.count; ++end) {
-      for (uint i = first; i < end && !is_other; ++i)
-        is_other = rpf_crosses(&field->lens, ends, &seen.near[i], &seen.near[end]);
-      if (is_other) break;
-    }
-    if (end == seen.count || rpf_covers(&seen, first, end)) break;
-    first = end++;
+    for (uint i = surface.first; i < next && !is_other; ++i)
+      is_other = rpf_crosses(&field->lens, ends, &seen->near[i], &seen->near[next]);
+    if (is_other && rpf_covers(seen, surface.first, next)) break;
+    if (is_other) surface.first = next;
+    surface.end = next + 1;
   }
-  uint nearest = first;
-  for (uint i = first + 1; i < end; ++i)
-    if (rpf_is_nearer(&seen.near[i], &seen.near[nearest])) nearest = i;
-  return seen.near[nearest].sample;
+  return surface;
+}
+
+// (11.6): what each sample of the surface counts, 1 together.
+RPF_INLINE void rpf_find_shares(float reach, const rpf_seen* seen, rpf_surface surface, float* share) {
+  float sum = 0.0f;
+  for (uint i = surface.first; i < surface.end; ++i) {
+    const float nearness = 1.0f - sqrt(seen->near[i].distance) / reach;
+    share[i] = nearness > RPF_LEAST_NEARNESS ? nearness : RPF_LEAST_NEARNESS;
+    sum += share[i];
+  }
+  for (uint i = surface.first; i < surface.end; ++i) share[i] /= sum;
+}
+
+// What rpf_add_view() does with a sample.
+RPF_INLINE void rpf_add_surface(float reach, const rpf_view_sums* s, size_t pixel, const rpf_seen* seen,
+                                rpf_surface surface) {
+  if (surface.end == 0) return;
+  float share[RPF_MOST_SEEN];
+  rpf_find_shares(reach, seen, surface, share);
+  for (uint c = 0; c < s->carried; ++c) {
+    const float mean = s->means[c * s->pixels + pixel];
+    float off = 0.0f;
+    for (uint i = surface.first; i < surface.end; ++i)
+      off += share[i] * (s->colors[(size_t)seen->near[i].sample * s->carried + c] - mean);
+    s->sums[c * s->pixels + pixel] += off;
+  }
+  s->sums[s->carried * s->pixels + pixel] += 1.0f;
 }
 
 // Pixels x0 .. x1 - 1 of row y take what they see.
 RPF_INLINE void rpf_see_run(const rpf_light_field* field, const rpf_view* view, const rpf_cells* cells,
                             const RPF_SHARED float* ends, const rpf_view_sums* sums, int y, int x0, int x1) {
-  for (int x = x0; x < x1; ++x)
-    rpf_add_view(sums, (size_t)y * (size_t)field->width + (size_t)x,
-                 rpf_see(field, cells, ends, (float)x + view->x, (float)y + view->y));
+  rpf_seen seen;
+  for (int x = x0; x < x1; ++x) {
+    const rpf_surface surface = rpf_see(field, cells, ends, (float)x + view->x, (float)y + view->y, &seen);
+    rpf_add_surface(field->reach, sums, (size_t)y * (size_t)field->width + (size_t)x, &seen, surface);
+  }
 }
 
 #ifdef __cplusplus

@@ -16,14 +16,11 @@ std::vector<float> CpuBackend::see_views(const LightField& light, const Estimate
         body(i, &light.tracks[i * RPF_TRACK]);
     });
   };
-  for_samples([&](std::size_t i, const float* track) {
-    kernel::rpf_find_ends(track, &field.lens, ends.data() + i * RPF_ENDS);
-  });
   ViewCells sorted(field);
   const kernel::rpf_view_sums to = {light.colors.data(), light.means.data(), sums.data(), light.pixels(), field.carried};
   for (const kernel::rpf_view& view : light.views) {
     for_samples([&](std::size_t i, const float* track) {
-      kernel::rpf_move(track, &field.lens, &view, places.data() + i * RPF_PLACE);
+      kernel::rpf_move(track, &field.lens, &view, places.data() + i * RPF_PLACE, ends.data() + i * RPF_ENDS);
     });
     sorted.sort(places);
     const kernel::rpf_cells cells = {sorted.first().data(), sorted.places().data(), sorted.samples().data()};

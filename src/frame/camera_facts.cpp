@@ -22,7 +22,7 @@ const T& attribute(const Metadata& metadata, const char* name, const char* type)
     throw Error(
         ErrorKind::input,
         fmt::format("--method lightfield: the samples have no attribute {} of type {}, which docs/file-format.md "
-                    "describes; have the renderer write it (rpf scene does with --light-field), or choose "
+                    "describes; have the renderer write it (rpf scene does with --lightfield), or choose "
                     "another --method",
                     name, type));
   return *value;

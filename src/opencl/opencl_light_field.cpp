@@ -25,7 +25,7 @@ class DeviceViews {
     tracks_ = session.input(light.tracks);
     place_buffer_ = session.host_buffer(places_.data(), places_.size() * sizeof(float), CL_MEM_READ_WRITE);
     sum_buffer_ = session.host_buffer(sums_.data(), sums_.size() * sizeof(float), CL_MEM_READ_WRITE);
-    find_ends(program);
+    ends_ = session.buffer(std::max<std::size_t>(light.samples(), 1) * RPF_ENDS * sizeof(float));
     see_.setArg(0, light.field);
     see_.setArg(5, ends_);
     see_.setArg(6, colors_ = session.input(light.colors));
@@ -34,7 +34,8 @@ class DeviceViews {
     move_.setArg(0, tracks_);
     move_.setArg(1, light.field.lens);
     move_.setArg(3, place_buffer_);
-    move_.setArg(4, samples());
+    move_.setArg(4, ends_);
+    move_.setArg(5, static_cast<cl_uint>(light.samples()));
   }
 
   /// Where the samples stand in a view, here.
@@ -69,18 +70,6 @@ class DeviceViews {
   }
 
  private:
-  cl_uint samples() const { return static_cast<cl_uint>(light_.samples()); }
-
-  void find_ends(const cl::Program& program) {
-    ends_ = session_.buffer(std::max<std::size_t>(light_.samples(), 1) * RPF_ENDS * sizeof(float));
-    cl::Kernel kernel(program, "find_ends");
-    kernel.setArg(0, tracks_);
-    kernel.setArg(1, light_.field.lens);
-    kernel.setArg(2, ends_);
-    kernel.setArg(3, samples());
-    session_.launch(kernel, items_, 1);
-  }
-
   Session& session_;
   const LightField& light_;
   std::size_t items_;

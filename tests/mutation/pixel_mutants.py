@@ -27,6 +27,7 @@ MUTANTS = [
     Mutant("light_covers", VIEWS, "return end - first > 2;", "return end - first > 9;", "oracle lightfield image", "coverage: of crowds only"),
     Mutant("light_depth", VIEWS, "a->depth < b->depth", "a->depth > b->depth", "oracle lightfield image", "surfaces: the last one is seen"),
     Mutant("light_shift", VIEWS, "1.0f / seen.depth - lens->inverse_focus", "1.0f / seen.depth", "oracle lightfield image", "the lens: focused on what is far"),
+    Mutant("light_shares", VIEWS, "1.0f - sqrt(seen->near[i].distance) / reach", "1.0f", "oracle lightfield image", "surfaces: samples count alike"),
     Mutant("light_bend", TRACKS, "bends ? off / around : 0", "0", "oracle lightfield image", "trajectories: straight ones"),
     Mutant("column_metric", METRICS, "is_steep ? tensor[k][l] / all : 0", "is_steep ? 0 * tensor[k][l] : 0", "oracle multidim image", "the metric: round"),
     Mutant("column_triangle", METRICS, "(k == l ? 1 : 2) * tensor[k][l]", "tensor[k][l]", "oracle multidim image", "the metric: half of what is beside the diagonal"),

@@ -5,7 +5,8 @@ import scene_frame
 from report import Report
 from tolerances import TOLERANCE
 
-EMPTY_CIRCLE, WIDEST, MOST_SEEN, LEAST_TIME = 2.4, 8.0, 32, 1 / 1024
+EMPTY_CIRCLE, WIDEST, MOST_SEEN, LEAST_TIME, LEAST_NEARNESS = 2.4, 8.0, 32, 1 / 1024, 1e-6
+CLOSE_BY = 128 ** -0.5
 
 
 def sequence(count):
@@ -107,12 +108,12 @@ class Place:
         with np.errstate(invalid="ignore"):
             self.order = around[np.lexsort((around, depth[around]))]
             self.close |= near(np.nan_to_num(np.diff(depth[self.order]) / depth[self.order][:-1], nan=1.0, posinf=1.0))
-        self.offset, self.distance, self.ends, self.camera = offset, distance, ends, camera
+        self.offset, self.distance, self.ends, self.camera, self.reach = offset, distance, ends, camera, reach
 
     def crosses(self, a, b):
         """(11.4)."""
         apart = self.offset[b] - self.offset[a]
-        lens = np.hypot(self.camera.right @ apart, self.camera.up @ apart)
+        lens = CLOSE_BY * np.hypot(self.camera.right @ apart, self.camera.up @ apart)
         for film, shift in self.ends:
             left = (film[b] - film[a]) @ apart - abs(shift[b] - shift[a]) * lens
             self.close |= near(left) and not (left == 0).all()
@@ -127,8 +128,8 @@ class Place:
         self.close |= near(side[~np.eye(len(surface), dtype=bool)])
         return len(surface) > 2 and bool((side < 0).any(axis=1).all())
 
-    def sample(self):
-        """The number of the sample that is seen, None where there is none."""
+    def surface(self):
+        """The samples of the surface that is seen, and their shares of (11.6)."""
         surface = list(self.order[:1])
         for sample in self.order[1:]:
             if not any(self.crosses(one, sample) for one in surface):
@@ -137,28 +138,25 @@ class Place:
             if self.covers(surface):
                 break
             surface = [sample]
-        if not surface:
-            return None
-        distances = np.sort(self.distance[surface])
-        self.close |= len(surface) > 1 and near(distances[1] - distances[0])
-        return min(surface, key=lambda s: (self.distance[s], s))
+        nearness = np.maximum(1 - self.distance[surface] / self.reach, LEAST_NEARNESS)
+        return surface, nearness / nearness.sum()
 
 
 def see(case, frame):
     """The picture [pixels, 3], and of each pixel the part of its views that rounding may change."""
     samples, count = Samples(case), case["settings"]["views"]
     reach = min(EMPTY_CIRCLE / np.sqrt(frame.counts.sum() / len(frame.counts)), WIDEST)
-    ends = [samples.seen(0, 0, time)[::2] for time in (0, 1)]
     sums, seen, close = np.zeros((len(frame.counts), 3)), np.zeros(len(frame.counts)), np.zeros(len(frame.counts))
     for u, v, time, x, y in views(count):
         film, depth, _ = samples.seen(u, v, time)
+        ends = [samples.seen(u, v, time + step * CLOSE_BY)[::2] for step in (-0.5, 0.5)]
         depth = np.where(samples.counts, depth, -1.0)
         for pixel in range(len(frame.counts)):
             place = Place(np.array([pixel % frame.width + x, pixel // frame.width + y]), film, depth, ends, samples.camera, reach)
-            sample = place.sample()
+            surface, share = place.surface()
             close[pixel] += place.close
-            if sample is not None:
-                sums[pixel] += frame.values[sample, :3]
+            if surface:
+                sums[pixel] += share @ frame.values[surface, :3]
                 seen[pixel] += 1
     return sums, seen, close / count
 
@@ -167,7 +165,7 @@ def check_image(frame, sums, seen, close, image, report):
     """Compares a picture with the mean of what views see, but for the part of them that is close."""
     weight = np.ones(len(frame.values)) if frame.weight is None else frame.weight
     expected = np.zeros((len(frame.counts), 3))
-    for pixel in np.flatnonzero(frame.counts):                                                           # (11.6)
+    for pixel in np.flatnonzero(frame.counts):                                                           # (11.7)
         own = frame.own(pixel)
         share = weight[own] if weight[own].sum() > 0 else np.ones(len(own))
         expected[pixel] = sums[pixel] / seen[pixel] if seen[pixel] else share @ frame.values[own, :3] / share.sum()
