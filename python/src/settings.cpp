@@ -36,7 +36,8 @@ void bind_published(nb::class_<Settings>& c) {
       .def_rw("sigma_feature", &Settings::sigma_feature, "Standard deviations of a group over the frame.")
       .def_rw("damping", &Settings::damping, "Of nlm: larger takes patches for more alike.")
       .def_rw("gamma", &Settings::gamma, "Of gem: larger holds wide Gaussians back.")
-      .def_rw("views", &Settings::views, "Of lightfield and multidim: places of lens and time that each pixel is seen from.")
+      .def_rw("views", &Settings::views,
+              "Of lightfield and multidim: places of lens and time that each pixel is seen from.")
       .def_rw("bandwidth", &Settings::bandwidth, "Of axis_aligned: larger makes filters narrower.")
       .def_rw("window", &Settings::window, "Of nlm: width of the box that neighbors come from, pixels.");
 }

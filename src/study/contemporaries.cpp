@@ -176,7 +176,8 @@ void tell_contemporaries(const Findings& findings, Story& story) {
   story.verdicts(claims(findings));
   story.paragraph(
       "The papers' main statements in our words, each judged on every scene and number of samples; all constants are "
-      "the papers'. Their boxes count in pixels, so a small picture is blurred more by wide ones: what loses here by "
+      "the papers', but for multidim and lightfield, whose papers were not at hand. Their boxes count in pixels, so a "
+      "small picture is blurred more by wide ones: what loses here by "
       "a little may win in a large picture.");
   tell_plots(findings, story);
   tell_means(findings, story);

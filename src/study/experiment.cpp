@@ -23,7 +23,7 @@ const std::vector<Experiment>& experiments() {
       {"thesis-vs-paper", "the thesis's profile against the paper's: error, energy, high dynamic range, time",
        plan_thesis_vs_paper, tell_thesis_vs_paper},
       {"contemporaries",
-       "the related work of 2011 and 2012 and Open Image Denoise beside ours, at 4, 16 and 64 samples; samples where "
+       "the related work of 2008 to 2012 and Open Image Denoise beside ours, at 4, 16 and 64 samples; samples where "
        "the noise is",
        plan_contemporaries,
        tell_contemporaries,
