@@ -134,15 +134,17 @@ void add_shadows(MethodCases& list) {
   list.add("1spp", list.basic(1));
 }
 
-void add_light_field(MethodCases& list) {
+/// What the methods for noise of lens and time can meet; `slots` are those that they read.
+void add_views(MethodCases& list, const std::vector<const char*>& scenes, const std::vector<const char*>& slots,
+               const std::vector<float>& extremes) {
   for (const int views : {1, 130}) list.add(fmt::format("views/{}", views), [&](Settings& s) { s.views = views; });
-  for (const char* scene : {"dof", "motion", "dof-edge"}) {
+  for (const char* scene : scenes) {
     ConformanceCase c = list.basic();
     c.scene = scene;
     list.add(fmt::format("scene/{}", scene), c);
   }
-  for (const char* slot : {"feature.P.X", "feature.P.Z", "feature.opening.Y", "feature.closing.Z", "random.time"})
-    for (const float value : {std::numeric_limits<float>::quiet_NaN(), -1e3F, 1e30F}) {
+  for (const char* slot : slots)
+    for (const float value : extremes) {
       ConformanceCase c = list.basic();
       c.change = poison(slot, value, 3);
       list.add(fmt::format("extreme/{}{:g}", slot, value), c);
@@ -150,20 +152,15 @@ void add_light_field(MethodCases& list) {
   for (const int samples : {1, 64}) list.add(count_name(samples), list.basic(samples));
 }
 
+void add_light_field(MethodCases& list) {
+  add_views(list, {"dof", "motion", "dof-edge"},
+            {"feature.P.X", "feature.P.Z", "feature.opening.Y", "feature.closing.Z", "random.time"},
+            {std::numeric_limits<float>::quiet_NaN(), -1e3F, 1e30F});
+}
+
 void add_columns(MethodCases& list) {
-  for (const int views : {1, 130}) list.add(fmt::format("views/{}", views), [&](Settings& s) { s.views = views; });
-  for (const char* scene : {"dof", "motion", "soft-shadow"}) {
-    ConformanceCase c = list.basic();
-    c.scene = scene;
-    list.add(fmt::format("scene/{}", scene), c);
-  }
-  for (const char* slot : {"random.lens.U", "random.lens.V", "random.time"})
-    for (const float value : {std::numeric_limits<float>::quiet_NaN(), -1e3F, 1e30F, 3e38F}) {
-      ConformanceCase c = list.basic();
-      c.change = poison(slot, value, 3);
-      list.add(fmt::format("extreme/{}{:g}", slot, value), c);
-    }
-  for (const int samples : {1, 64}) list.add(count_name(samples), list.basic(samples));
+  add_views(list, {"dof", "motion", "soft-shadow"}, {"random.lens.U", "random.lens.V", "random.time"},
+            {std::numeric_limits<float>::quiet_NaN(), -1e3F, 1e30F, 3e38F});
 }
 
 void add_common_settings(MethodCases& list) {

@@ -4,6 +4,24 @@
 #include "opencl/opencl_backend.h"
 
 namespace rpf {
+namespace {
+
+/// What the first of the views or points adds up to, and what all of them do.
+template <typename Work>
+Comparison compare_sums(const char* name_of_first, const Work& first, const Work& all,
+                        std::vector<float> (Backend::*run)(const Work&, const EstimateProgress&),
+                        const std::string& device_name, int threads) {
+  const auto silent = [](double /*part*/) {};
+  CpuBackend reference(threads);
+  OpenClBackend device({device_name, threads, 0});
+  Comparison comparison;
+  comparison.at(0, "whole frame");
+  comparison.values(name_of_first, (reference.*run)(first, silent), (device.*run)(first, silent));
+  comparison.values("sums", (reference.*run)(all, silent), (device.*run)(all, silent));
+  return comparison;
+}
+
+}  // namespace
 
 Comparison compare_steps(const ConformanceCase& c, SampleBuffer samples, const std::string& device_name, int threads) {
   const PreparedFrame prepared = prepare(std::move(samples), c.settings);
@@ -26,30 +44,16 @@ Comparison compare_steps(const ConformanceCase& c, SampleBuffer samples, const s
 Comparison compare_columns(const ConformanceCase& c, SampleBuffer samples, const std::string& device_name,
                            int threads) {
   const PixelColumns columns = make_pixel_columns(prepare(std::move(samples), c.settings), c.settings, threads, [] {});
-  const auto silent = [](double /*part*/) {};
-  CpuBackend reference(threads);
-  OpenClBackend device({device_name, threads, 0});
-  Comparison comparison;
   PixelColumns first = columns;
   first.points.resize(1);
-  comparison.at(0, "whole frame");
-  comparison.values("first point", reference.integrate_columns(first, silent), device.integrate_columns(first, silent));
-  comparison.values("sums", reference.integrate_columns(columns, silent), device.integrate_columns(columns, silent));
-  return comparison;
+  return compare_sums("first point", first, columns, &Backend::integrate_columns, device_name, threads);
 }
 
 Comparison compare_views(const ConformanceCase& c, SampleBuffer samples, const std::string& device_name, int threads) {
   const LightField light = make_light_field(prepare(std::move(samples), c.settings), c.settings);
-  const auto silent = [](double /*part*/) {};
-  CpuBackend reference(threads);
-  OpenClBackend device({device_name, threads, 0});
-  Comparison comparison;
   LightField first = light;
   first.views.resize(1);
-  comparison.at(0, "whole frame");
-  comparison.values("first view", reference.see_views(first, silent), device.see_views(first, silent));
-  comparison.values("sums", reference.see_views(light, silent), device.see_views(light, silent));
-  return comparison;
+  return compare_sums("first view", first, light, &Backend::see_views, device_name, threads);
 }
 
 }  // namespace rpf

@@ -54,11 +54,10 @@ Json commands_of(const Run& run) {
   const std::string grow =
       fmt::format("rpf adapt {} --spp {} -- {} --spp 1 --density {{density}} --seed {{seed}} -o {{output}}", samples,
                   f.samples_per_pixel, scene);
-  Json commands = {fmt::format("{} --spp {}{} -o {}", scene, f.adapted ? bench::adapted_from : f.samples_per_pixel,
-                               f.penumbra     ? " --penumbra"
-                               : f.lightfield ? " --lightfield"
-                                              : "",
-                               samples)};
+  const std::string kinds =
+      std::string(f.penumbra ? " --penumbra" : "") + std::string(f.lightfield ? " --lightfield" : "");
+  Json commands = {
+      fmt::format("{} --spp {}{} -o {}", scene, f.adapted ? bench::adapted_from : f.samples_per_pixel, kinds, samples)};
   if (f.adapted) commands.push_back(grow);
   commands.push_back(fmt::format("{} --reference {} --sampler sobol -o {}", scene, f.reference_samples, reference));
   commands.push_back(run.denoised

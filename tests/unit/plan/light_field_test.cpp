@@ -1,77 +1,23 @@
-// The light field: what must not matter, what it is for, and what it refuses.
+// The light field: what it sees, and what it refuses (lens_and_time_test.cpp has what it shares with multidim).
 #include "plan/light_field.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "lens_and_time.h"
 #include "plan/tracks.h"
 #include "plan/view_cells.h"
 #include "rpf/error.h"
-#include "rpf/filter.h"
-#include "rpf/methods.h"
 #include "rpf/metrics.h"
-#include "rpf/scene.h"
-#include "test_frames.h"
-#include "tolerances.h"
 
 namespace rpf {
 namespace {
 
-SceneOptions small(int samples = 4) {
-  SceneOptions options;
-  options.width = 40;
-  options.height = 24;
-  options.samples = samples;
-  options.lightfield = true;
-  options.threads = 1;
-  return options;
-}
+using test::filtered;
+using test::small_scene;
 
-Settings settings(int views = 16) {
-  Settings s = method_settings("lightfield");
-  s.backend = test::backend_under_test();
-  s.threads = 1;
-  s.views = views;
-  return s;
-}
-
-std::vector<float> filtered(const SampleBuffer& samples, const Settings& s) { return filter(samples, s).image.pixels; }
-
-TEST(LightField, GivesTheSameBitsForThreadsAndRuns) {
-  SceneOptions options = small();
-  options.adaptive = true;
-  const SampleBuffer samples = render_scene("combined", options);
-  const std::vector<float> expected = filtered(samples, settings());
-  Settings s = settings();
-  s.threads = 3;
-  EXPECT_EQ(filtered(samples, s), expected);
-  s.backend = "cpu";
-  EXPECT_EQ(filtered(samples, s), expected);
-}
-
-TEST(LightField, GivesTheSamePixelsForACrop) {
-  const SampleBuffer samples = render_scene("combined", small());
-  Settings crop = settings();
-  crop.crop = Window{17, 11, 6, 5};
-  const Image whole = filter(samples, settings()).image;
-  EXPECT_EQ(filter(samples, crop).image.pixels, test::part_of(whole, *crop.crop));
-}
-
-TEST(LightField, ScalesWithRadiance) {
-  const SampleBuffer samples = render_scene("combined", small());
-  SampleBuffer scaled = samples;
-  test::scale_radiance(scaled, std::ldexp(1.0F, -90));
-  std::vector<float> expected = filtered(samples, settings());
-  for (float& value : expected) value = std::ldexp(value, -90);
-  EXPECT_EQ(filtered(scaled, settings()), expected);
-}
-
-TEST(LightField, LeavesASingleColorWhatItIs) {
-  SampleBuffer samples = render_scene("combined", small());
-  for (const char* slot : {"R", "G", "B"}) test::fill(samples, slot, 0.3F);
-  for (const float value : filtered(samples, settings())) ASSERT_EQ(value, 0.3F);
-}
+Settings settings(int views = 16) { return test::few_views("lightfield", views); }
 
 double spread(const std::vector<float>& values) {
   double sum = 0, squares = 0;
@@ -85,29 +31,15 @@ double spread(const std::vector<float>& values) {
 
 // Of noise that a surface's samples have: 4 a pixel make up a pixel's mean, some 14 what a view sees.
 TEST(LightField, AveragesTheSamplesOfASurface) {
-  SampleBuffer samples = render_scene("dof", small());
+  SampleBuffer samples = render_scene("dof", small_scene());
   test::Dice dice(9);
   for (std::size_t i = 0; i < samples.sample_count(); ++i)
     for (const char* slot : {"R", "G", "B"}) test::value_of(samples, i, slot) = dice();
-  Settings plain = settings();
-  plain.method = Method::rpf;
-  plain.box_widths.clear();
-  EXPECT_LT(spread(filtered(samples, settings(64))), 0.6 * spread(filtered(samples, plain)));
-}
-
-TEST(LightField, LeavesPixelsWithoutSamplesBlack) {
-  SceneOptions options = small(1);
-  options.adaptive = true;
-  const SampleBuffer samples = render_scene("dof", options);
-  const Image image = filter(samples, settings()).image;
-  for (std::size_t p = 0; p + 1 < samples.first_sample.size(); ++p)
-    if (samples.first_sample[p] == samples.first_sample[p + 1]) {
-      ASSERT_EQ(image.pixel(p)[0], 0);
-    }
+  EXPECT_LT(spread(filtered(samples, settings(64))), 0.6 * spread(filtered(samples, test::plain_mean())));
 }
 
 TEST(LightField, DoesNotDependOnWhereTheWorldLies) {
-  SceneOptions options = small(), moved = small();
+  SceneOptions options = small_scene(), moved = small_scene();
   moved.world_scale = 64;
   moved.world_offset = {128, -64, 32};
   const Image expected = filter(render_scene("combined", options), settings()).image;
@@ -115,24 +47,8 @@ TEST(LightField, DoesNotDependOnWhereTheWorldLies) {
   EXPECT_LT(compare_images(found, expected).relmse, 1e-4);  // a close call of a view here and there
 }
 
-// Where all noise is of lens or time, hardly any is left; of so small a picture of motion half the plain mean's error,
-// because what is sharp gets averaged too.
-TEST(LightField, TakesAwayTheNoiseOfLensAndTime) {
-  for (const auto& [scene, part] : {std::pair{"dof-edge", 0.4}, std::pair{"motion", 0.6}}) {
-    SceneOptions options = small(64);
-    const Image reference = render_reference(scene, options);
-    const SampleBuffer samples = render_scene(scene, small());
-    Settings plain = settings();
-    plain.method = Method::rpf;
-    plain.box_widths.clear();
-    const double before = compare_images(filter(samples, plain).image, reference).relmse;
-    const double after = compare_images(filter(samples, settings(64)).image, reference).relmse;
-    EXPECT_LT(after, part * before) << scene;
-  }
-}
-
 TEST(LightField, RefusesWhatItCannotBeWithout) {
-  const SampleBuffer samples = render_scene("combined", small());
+  const SampleBuffer samples = render_scene("combined", small_scene());
   const auto expect_refused = [](const SampleBuffer& without, const std::string& missing) {
     try {
       filter(without, settings());
@@ -160,7 +76,7 @@ TEST(LightField, RefusesWhatItCannotBeWithout) {
 }
 
 TEST(LightField, NeedsNoMotionWhereTimeIsNoParameter) {
-  const SampleBuffer samples = render_scene("dof", small());
+  const SampleBuffer samples = render_scene("dof", small_scene());
   std::vector<std::string> slots;
   for (const std::string& slot : samples.layout.slots)
     if (slot != "random.time" && group_of(slot) != "opening" && group_of(slot) != "closing") slots.push_back(slot);
@@ -169,7 +85,7 @@ TEST(LightField, NeedsNoMotionWhereTimeIsNoParameter) {
 
 // The samples of dof-edge lie on two planes; seen through the lens's center they are where they were projected from.
 TEST(LightField, SeesSamplesWhereTheCameraSawThem) {
-  SceneOptions options = small();
+  SceneOptions options = small_scene();
   const Settings s = settings();
   const PreparedFrame prepared = prepare(render_scene("motion", options), s);  // a pinhole
   const LightField light = make_light_field(prepared, s);

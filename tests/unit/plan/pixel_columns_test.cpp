@@ -1,4 +1,5 @@
-// Columns of pixels in the space of the samples: the tree, what must not matter, and what they are for.
+// Columns of pixels in the space of the samples: the tree, and what is of them alone (lens_and_time_test.cpp has the
+// rest).
 #include "plan/pixel_columns.h"
 
 #include <gtest/gtest.h>
@@ -7,15 +8,13 @@
 #include <cmath>
 #include <numeric>
 
-#include "rpf/filter.h"
-#include "rpf/methods.h"
-#include "rpf/metrics.h"
-#include "rpf/scene.h"
-#include "test_frames.h"
-#include "tolerances.h"
+#include "lens_and_time.h"
 
 namespace rpf {
 namespace {
+
+using test::filtered;
+using test::small_scene;
 
 std::vector<float> any_places(std::size_t count, test::Dice& dice) {
   std::vector<float> places;
@@ -72,62 +71,10 @@ TEST(SampleTree, FindsTheNearest) {
   }
 }
 
-SceneOptions small(int samples = 4) {
-  SceneOptions options;
-  options.width = 40;
-  options.height = 24;
-  options.samples = samples;
-  options.threads = 1;
-  return options;
-}
-
-Settings settings(int views = 16) {
-  Settings s = method_settings("multidim");
-  s.backend = test::backend_under_test();
-  s.threads = 1;
-  s.views = views;
-  return s;
-}
-
-std::vector<float> filtered(const SampleBuffer& samples, const Settings& s) { return filter(samples, s).image.pixels; }
-
-TEST(PixelColumns, GiveTheSameBitsForThreadsAndBackends) {
-  SceneOptions options = small();
-  options.adaptive = true;
-  const SampleBuffer samples = render_scene("combined", options);
-  const std::vector<float> expected = filtered(samples, settings());
-  Settings s = settings();
-  s.threads = 3;
-  EXPECT_EQ(filtered(samples, s), expected);
-  s.backend = "cpu";
-  EXPECT_EQ(filtered(samples, s), expected);
-}
-
-TEST(PixelColumns, GiveTheSamePixelsForACrop) {
-  const SampleBuffer samples = render_scene("combined", small());
-  Settings crop = settings();
-  crop.crop = Window{17, 11, 6, 5};
-  const Image whole = filter(samples, settings()).image;
-  EXPECT_EQ(filter(samples, crop).image.pixels, test::part_of(whole, *crop.crop));
-}
-
-TEST(PixelColumns, ScaleWithRadiance) {
-  const SampleBuffer samples = render_scene("combined", small());
-  SampleBuffer scaled = samples;
-  test::scale_radiance(scaled, std::ldexp(1.0F, -90));
-  std::vector<float> expected = filtered(samples, settings());
-  for (float& value : expected) value = std::ldexp(value, -90);
-  EXPECT_EQ(filtered(scaled, settings()), expected);
-}
-
-TEST(PixelColumns, LeaveASingleColorWhatItIs) {
-  SampleBuffer samples = render_scene("combined", small());
-  for (const char* slot : {"R", "G", "B"}) test::fill(samples, slot, 0.3F);
-  for (const float value : filtered(samples, settings())) ASSERT_EQ(value, 0.3F);
-}
+Settings settings(int views = 16) { return test::few_views("multidim", views); }
 
 TEST(PixelColumns, StayWithinTheSamples) {
-  const SampleBuffer samples = render_scene("combined", small());
+  const SampleBuffer samples = render_scene("combined", small_scene());
   const std::vector<float> pixels = filtered(samples, settings());
   for (std::size_t c = 0; c < 3; ++c) {
     float least = INFINITY, most = -INFINITY;
@@ -143,20 +90,9 @@ TEST(PixelColumns, StayWithinTheSamples) {
   }
 }
 
-TEST(PixelColumns, LeavePixelsWithoutSamplesBlack) {
-  SceneOptions options = small(1);
-  options.adaptive = true;
-  const SampleBuffer samples = render_scene("dof", options);
-  const Image image = filter(samples, settings()).image;
-  for (std::size_t p = 0; p + 1 < samples.first_sample.size(); ++p)
-    if (samples.first_sample[p] == samples.first_sample[p + 1]) {
-      ASSERT_EQ(image.pixel(p)[0], 0);
-    }
-}
-
 // All samples of a pixel in one place, and many of them: a search ends all the same.
 TEST(PixelColumns, EndWhereAllSamplesAreInOnePlace) {
-  SceneOptions options = small(64);
+  SceneOptions options = small_scene(64);
   options.width = options.height = 8;
   SampleBuffer samples = render_scene("combined", options);
   for (const char* slot : {"random.lens.U", "random.lens.V", "random.time"}) test::fill(samples, slot, 0.5F);
@@ -164,26 +100,11 @@ TEST(PixelColumns, EndWhereAllSamplesAreInOnePlace) {
 }
 
 TEST(PixelColumns, TakeWhatDimensionsThereAre) {
-  const SampleBuffer samples = render_scene("dof", small());
+  const SampleBuffer samples = render_scene("dof", small_scene());
   std::vector<std::string> slots;
   for (const std::string& slot : samples.layout.slots)
     if (slot != "random.time") slots.push_back(slot);
   EXPECT_EQ(filtered(test::with_slots(samples, slots), settings()), filtered(samples, settings()));
-}
-
-// Most noise of lens and time goes. Measured: 0.3 and 0.6 of the plain mean's; pixels of so small a frame are large.
-TEST(PixelColumns, TakeAwayTheNoiseOfLensAndTime) {
-  for (const auto& [scene, share] : {std::pair{"dof-edge", 0.4}, std::pair{"motion", 0.7}}) {
-    SceneOptions options = small(64);
-    const Image reference = render_reference(scene, options);
-    const SampleBuffer samples = render_scene(scene, small());
-    Settings plain = settings();
-    plain.method = Method::rpf;
-    plain.box_widths.clear();
-    const double before = compare_images(filter(samples, plain).image, reference).relmse;
-    const double after = compare_images(filter(samples, settings(64)).image, reference).relmse;
-    EXPECT_LT(after, share * before) << scene;
-  }
 }
 
 }  // namespace
