@@ -14,6 +14,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "rpf/error.h"
+#include "rpf/filter.h"
 #include "rpf/io.h"
 
 namespace rpf::python {
@@ -100,6 +101,7 @@ Samples read(const std::filesystem::path& path, const std::optional<std::vector<
   SampleReadOptions options;
   options.slots = slots;
   options.max_memory = max_memory;
+  options.threads = available_threads();
   return {std::make_shared<SampleBuffer>(read_samples(path.string(), options))};
 }
 

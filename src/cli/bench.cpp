@@ -70,7 +70,7 @@ bench::FrameJob job_of(const bench::SweepFrame& frame, const bench::SweepSetting
     throw Error(ErrorKind::usage,
                 fmt::format("setting \"{}\": options that name files have no place here", setting.name));
   const Settings settings = settings_of(options);
-  return {frame.samples, frame.reference, settings, read_options_of(options.map, settings.max_memory)};
+  return {frame.samples, frame.reference, settings, read_options_of(options, settings)};
 }
 
 Control stoppable() {

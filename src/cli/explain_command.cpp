@@ -63,7 +63,7 @@ ExplainedEstimate estimate_of(const Options& o, const Settings& published, const
   settings.backend = published.backend;
   settings.threads = published.threads;
   settings.max_memory = published.max_memory;
-  SampleReadOptions read_options = read_options_of(o.filter.map, settings.max_memory);
+  SampleReadOptions read_options = read_options_of(o.filter, settings);
   read_options.slots = needed_layout(info, settings).slots;
   return explain_estimate(read_samples(o.filter.input, read_options), settings, pixel, control);
 }
@@ -86,7 +86,7 @@ int run(const Options& o) {
     pixel = pixel_of(o.pixel);
     report::check_plotting();
   }
-  SampleReadOptions read_options = read_options_of(o.filter.map, settings.max_memory);
+  SampleReadOptions read_options = read_options_of(o.filter, settings);
   const SampleFileInfo info = inspect_samples(o.filter.input, read_options);
   check_need(info, "explaining", predict_explain_memory(frame_size(info), needed_layout(info, settings), settings),
              settings.max_memory);

@@ -19,7 +19,7 @@ int run(const FilterOptions& options) {
   if (!options.time_budget.empty())
     throw Error(ErrorKind::usage, "facts: --time-budget leaves open which preset it is; name one with --preset");
   const Settings settings = settings_of(options);
-  SampleReadOptions reading = read_options_of(options.map, settings.max_memory);
+  SampleReadOptions reading = read_options_of(options, settings);
   const SampleFileInfo info = inspect_samples(options.input, reading);
   reading.slots = needed_layout(info, settings).slots;
   check_outputs({{options.output, OutputKind::page}}, files_read(options));

@@ -148,7 +148,7 @@ void open_parts(OpenFrame& frame) {
 OpenFrame open_frame(const FilterOptions& options) {
   check_usage(options);
   OpenFrame frame{options, settings_of(options), {}, {}, 0, false, {}};
-  frame.reading = read_options_of(options.map, frame.settings.max_memory);
+  frame.reading = read_options_of(options, frame.settings);
   frame.input = open_input(options.input, frame.settings.method, frame.reading);
   const SampleFileInfo& info = frame.input.info;
   if (frame.input.is_image() && options.sigma_color == 0) frame.settings.sigma_color = image_sigma_color;

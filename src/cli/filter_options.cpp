@@ -293,6 +293,7 @@ Settings settings_of(const FilterOptions& o) {
 SampleReadOptions read_options_of(const std::vector<std::string>& map, std::uint64_t max_memory) {
   SampleReadOptions options;
   options.max_memory = max_memory;
+  options.threads = default_threads();
   for (const std::string& entry : map) {
     const auto equals = entry.find('=');
     if (equals == std::string::npos || equals == 0)
@@ -300,6 +301,12 @@ SampleReadOptions read_options_of(const std::vector<std::string>& map, std::uint
     options.slot_map[entry.substr(0, equals)] = entry.substr(equals + 1);
   }
   return options;
+}
+
+SampleReadOptions read_options_of(const FilterOptions& options, const Settings& settings) {
+  SampleReadOptions reading = read_options_of(options.map, settings.max_memory);
+  reading.threads = settings.threads;
+  return reading;
 }
 
 }  // namespace rpf::cli

@@ -59,6 +59,8 @@ void add_picture_options(CLI::App& app, FilterOptions& options);
 Settings settings_of(const FilterOptions& options);
 double time_budget_of(const FilterOptions& options);  ///< seconds; 0 where none is given
 SampleReadOptions read_options_of(const std::vector<std::string>& map, std::uint64_t max_memory);
+/// With the memory and threads of the settings.
+SampleReadOptions read_options_of(const FilterOptions& options, const Settings& settings);
 
 /// WxH+X+Y as oiiotool writes it; X and Y may be negative (100x50-7+3).
 Window window_of(const std::string& option, const std::string& text);

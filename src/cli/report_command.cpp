@@ -27,7 +27,7 @@ int run(const Options& o) {
         "rpf report render.samples.exr filtered.exr reference.exr -o page.html");
   FramePageJob job{o.files[0], o.files[1], o.files.size() > 2 ? o.files[2] : "", o.machine.output, {}, {}, ""};
   job.machine = settings_of(o.machine);
-  job.read = read_options_of(o.machine.map, job.machine.max_memory);
+  job.read = read_options_of(o.machine, job.machine);
   job.progress = o.machine.quiet ? "never" : o.machine.progress;
   check_outputs({{job.page, OutputKind::page}}, o.files);
   write_frame_page(job);

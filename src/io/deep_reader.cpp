@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <memory>
+#include <numeric>
 
 #include "io/channel_names.h"
 #include "io/exr_structure.h"
@@ -15,6 +17,7 @@
 #include "io/reading.h"
 #include "io/spread.h"
 #include "io/unpack.h"
+#include "parallel/workers.h"
 #include "rpf/error.h"
 
 namespace rpf::io {
@@ -60,10 +63,16 @@ CheckedFile check_file(const std::string& path, const SampleReadOptions& options
   return file;
 }
 
-// Tables of rows, and one row: packed, as differences, unpacked.
-std::uint64_t reader_bytes(const CheckedFile& file) {
+/// Rows for each thread at the least: one of them is in memory three times more.
+constexpr int rows_of_reader = 16;
+
+int reader_count(int rows, int threads) { return std::clamp(rows / rows_of_reader, 1, std::max(threads, 1)); }
+
+// Tables of rows, and one row of each reader: packed, as differences, unpacked.
+std::uint64_t reader_bytes(const CheckedFile& file, int readers) {
   const Window& window = file.info.data_window;
-  return window.height * sizeof(Row) + static_cast<std::uint64_t>(window.width) * 12 + file.rows.largest_row_bytes * 3;
+  const std::uint64_t row = static_cast<std::uint64_t>(window.width) * 12 + file.rows.largest_row_bytes * 3;
+  return window.height * sizeof(Row) + static_cast<std::uint64_t>(readers) * row;
 }
 
 // Unpacks one row after the other.
@@ -118,6 +127,28 @@ class RowReader {
   std::vector<std::uint32_t> counts_;
 };
 
+// Several threads that unpack rows, each with what it needs for one.
+class Readers {
+ public:
+  Readers(const CheckedFile& checked, int count) : checked_(checked), workers_(count), readers_(workers_.count()) {}
+
+  /// Calls use(reader, row) for these rows, in any order.
+  template <class Use>
+  void for_all(int first, int end, const Use& use) {
+    workers_.for_all(static_cast<std::size_t>(first), static_cast<std::size_t>(end),
+                     [&](std::size_t row, std::size_t worker) {
+                       std::unique_ptr<RowReader>& reader = readers_[worker];
+                       if (!reader) reader = std::make_unique<RowReader>(checked_);
+                       use(*reader, static_cast<int>(row));
+                     });
+  }
+
+ private:
+  const CheckedFile& checked_;
+  Workers workers_;
+  std::vector<std::unique_ptr<RowReader>> readers_;
+};
+
 std::vector<SpreadTarget> targets_of(const CheckedFile& checked, const SampleLayout& layout) {
   std::vector<SpreadTarget> targets;
   std::size_t begin = 0;
@@ -129,11 +160,13 @@ std::vector<SpreadTarget> targets_of(const CheckedFile& checked, const SampleLay
   return targets;
 }
 
-void check_sample_budget(const CheckedFile& file, std::size_t columns, std::uint64_t limit) {
+void check_sample_budget(const CheckedFile& file, std::size_t columns, const SampleReadOptions& options) {
   check_sample_count(file.info.path, file.info.sample_count);
   const std::uint64_t pixels = file.info.data_window.pixel_count();
   const std::uint64_t values = file.info.sample_count * columns * sizeof(float);
-  check_budget(file.info.path, values + (pixels + 1) * sizeof(std::uint32_t) + reader_bytes(file), limit);
+  const int readers = reader_count(file.info.data_window.height, options.threads);
+  check_budget(file.info.path, values + (pixels + 1) * sizeof(std::uint32_t) + reader_bytes(file, readers),
+               options.max_memory);
 }
 
 CheckedFile check_wanted(const std::string& path, const SampleReadOptions& options) {
@@ -148,7 +181,7 @@ class DeepRows : public SampleRows {
       : checked_(check_wanted(path, options)),
         frame_(empty_buffer(checked_.info)),
         targets_(targets_of(checked_, frame_.layout)),
-        reader_(checked_) {}
+        threads_(options.threads) {}
 
   const CheckedFile& checked() const { return checked_; }
   const SampleBuffer& frame() const override { return frame_; }
@@ -158,37 +191,38 @@ class DeepRows : public SampleRows {
   SampleBuffer read(int first, int end) override {
     return guard_input(checked_.info.path, [&] {
       SampleBuffer samples = empty_rows(frame_, first, end);
-      for (int row = first; row < end; ++row)
-        for (const std::uint32_t count : reader_.counts(row))
-          samples.first_sample.push_back(samples.first_sample.back() + count);
+      samples.first_sample.resize(samples.data_window.pixel_count() + 1);
+      const auto first_of_row = [&](int row) {
+        return samples.first_sample.begin() + std::ptrdiff_t{row - first} * samples.data_window.width;
+      };
+      Readers readers(checked_, reader_count(end - first, threads_));
+      readers.for_all(first, end, [&](RowReader& reader, int row) {
+        const std::vector<std::uint32_t>& counts = reader.counts(row);
+        std::copy(counts.begin(), counts.end(), first_of_row(row) + 1);
+      });
+      std::partial_sum(samples.first_sample.begin(), samples.first_sample.end(), samples.first_sample.begin());
       allocate_values(samples);
-      fill(samples, first, end);
+      readers.for_all(first, end, [&](RowReader& reader, int row) {
+        const std::vector<std::uint8_t>& unpacked = reader.samples(row);
+        spread(unpacked.data(), targets_, unpacked.size() / checked_.sample_bytes, samples.record(*first_of_row(row)),
+               samples.layout.size());
+      });
       return samples;
     });
   }
 
  private:
-  void fill(SampleBuffer& samples, int first, int end) {
-    std::size_t sample = 0;
-    for (int row = first; row < end; ++row) {
-      const std::vector<std::uint8_t>& unpacked = reader_.samples(row);
-      const std::size_t count = unpacked.size() / checked_.sample_bytes;
-      spread(unpacked.data(), targets_, count, samples.record(sample), samples.layout.size());
-      sample += count;
-    }
-  }
-
   CheckedFile checked_;
   SampleBuffer frame_;
   std::vector<SpreadTarget> targets_;
-  RowReader reader_;
+  int threads_;
 };
 
 }  // namespace
 
 SampleFileInfo inspect_deep(const std::string& path, const SampleReadOptions& options) {
   CheckedFile checked = check_file(path, options);
-  check_budget(path, reader_bytes(checked), options.max_memory);
+  check_budget(path, reader_bytes(checked, 1), options.max_memory);
   return guard_input(path, [&] {
     RowReader reader(checked);
     SampleFileInfo& info = checked.info;
@@ -207,7 +241,7 @@ SampleFileInfo inspect_deep(const std::string& path, const SampleReadOptions& op
 SampleBuffer read_deep(const std::string& path, const SampleReadOptions& options) {
   DeepRows rows(path, options);
   // All allocations that follow are counted here.
-  check_sample_budget(rows.checked(), rows.frame().layout.size(), options.max_memory);
+  check_sample_budget(rows.checked(), rows.frame().layout.size(), options);
   return rows.read(0, rows.frame().data_window.height);
 }
 

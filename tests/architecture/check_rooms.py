@@ -26,7 +26,7 @@ ROOMS = {
     "src/explain": "src/parallel src/frame src/plan src/learned src/seam src/run kernels",
     "src/conformance": "src/frame src/learned src/seam src/cpu src/opencl kernels",
     # beside the filter, sharing nothing with it but the public headers
-    "src/io": "src/parts",
+    "src/io": "src/parts src/parallel",
     "src/images": "src/io",           # a library of its own; src/io loads it
     "src/metrics": "",
     "src/scene": "src/parallel",

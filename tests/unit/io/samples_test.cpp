@@ -177,6 +177,24 @@ TEST(Samples, WideRowsOfEveryCompression) {
     }
 }
 
+// As many rows as several threads get, and more threads than that.
+TEST(Samples, ThreadsUnpackTheSameRows) {
+  const TemporaryFolder folder;
+  Recipe recipe;
+  recipe.data_window = {4, -9, 13, 77};
+  recipe.compression = Imf::ZIPS_COMPRESSION;
+  recipe.counts = [](int pixel) { return static_cast<unsigned>(pixel * 11 % 6); };
+  write_deep(folder.file("a.exr"), recipe);
+  for (const int threads : {1, 2, 3, 64}) {
+    rpf::SampleReadOptions options;
+    options.threads = threads;
+    const SampleBuffer samples = rpf::read_samples(folder.file("a.exr"), options);
+    for (std::uint32_t pixel = 0; pixel < 13 * 77; ++pixel)
+      ASSERT_EQ(samples.first_sample[pixel + 1] - samples.first_sample[pixel], recipe.counts(static_cast<int>(pixel)));
+    expect_recipe_values(recipe, samples);
+  }
+}
+
 TEST(Samples, OnlyWantedSlotsAreReadButAllAreInspected) {
   const TemporaryFolder folder;
   write_deep(folder.file("a.exr"), {});
