@@ -16,7 +16,7 @@
 #include "run/pass_summary.h"
 #include "run/progress_meter.h"
 #include "run/provenance.h"
-#include "run/threads.h"
+#include "parallel/thread_count.h"
 #include "run/tiles.h"
 
 namespace rpf {

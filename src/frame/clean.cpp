@@ -6,20 +6,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <iterator>
 #include <limits>
 #include <utility>
 
+#include "frame/glance.h"
 #include "frame/lost_pixels.h"
+#include "frame/sample_cleaner.h"
 #include "frame/variables.h"
+#include "parallel/thread_count.h"
+#include "parallel/workers.h"
 
 namespace rpf {
 namespace {
 
-/// Larger feature values count as missing: their squares would not survive a sum, and renderers write such values for
-/// "no hit". Nor would sums of larger weights or alphas.
-constexpr float largest_value = 1e15F;
 constexpr float largest_half = 65504;
 
 std::vector<std::size_t> all_of(const SampleLayout& layout, std::initializer_list<const char*> slots) {
@@ -27,112 +27,6 @@ std::vector<std::size_t> all_of(const SampleLayout& layout, std::initializer_lis
   for (const char* slot : slots)
     if (const auto column = layout.find(slot)) columns.push_back(*column);
   return columns.size() == slots.size() ? columns : std::vector<std::size_t>{};
-}
-
-/// Overflowed light is the largest that its type holds, not none.
-void take_infinite(float* record, const Columns& columns, CleanFindings& findings, std::size_t pixel) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    float& value = record[columns.color[c]];
-    if (columns.largest[c] == 0 || !std::isinf(value) || value < 0) continue;
-    findings.infinite.add(pixel);
-    value = columns.largest[c];
-  }
-}
-
-bool is_usable(const float* record, const Columns& columns, CleanFindings& findings, std::size_t pixel) {
-  const auto is_finite = [&](std::size_t c) { return std::isfinite(record[c]); };
-  if (!std::all_of(std::begin(columns.color), std::end(columns.color), is_finite)) {
-    findings.not_finite.add(pixel);
-    return false;
-  }
-  if (!columns.weight || (record[*columns.weight] >= 0 && record[*columns.weight] <= largest_value)) return true;
-  findings.no_weight.add(pixel);
-  return false;
-}
-
-std::int32_t bits_of(const float& value) {
-  std::int32_t bits;
-  std::memcpy(&bits, &value, sizeof bits);
-  return bits;
-}
-
-/// What a record lacks, of its hits and otherwise.
-struct Gaps {
-  bool others = false;  ///< of what every sample has, or values that have to be marked as missing yet
-  bool any_first = false, all_first = false, any_second = false, all_second = false;
-};
-
-/// Compares bits, all of them, in vectors.
-Gaps gaps_of(const float* record, std::size_t size, const Columns& columns) {
-  const std::int32_t limit = bits_of(largest_value), marked = bits_of(missing);
-  std::int32_t others = 0, any_first = 0, all_first = ~0, any_second = 0, all_second = ~0;
-  for (std::size_t c = 0; c < size; ++c) {
-    const std::int32_t bits = bits_of(record[c]), first = columns.is_first[c], second = columns.is_second[c];
-    const std::int32_t gap = (bits & std::numeric_limits<std::int32_t>::max()) > limit ? ~0 : 0;
-    others |= gap & (~(first | second) | (bits ^ marked));
-    any_first |= gap & first;
-    all_first &= gap | ~first;
-    any_second |= gap & second;
-    all_second &= gap | ~second;
-  }
-  return {others != 0, any_first != 0, all_first != 0, any_second != 0, all_second != 0};
-}
-
-/// Whether nothing in a record needs a closer look; most are like that. A ray that hit nothing, once or twice, has no
-/// features, and they are marked as missing already.
-bool is_plain(const float* record, std::size_t size, const Columns& columns) {
-  const auto is_negative = [&](std::size_t c) { return record[c] < 0; };
-  if (std::any_of(std::begin(columns.color), std::end(columns.color), is_negative)) return false;
-  if (columns.weight && is_negative(*columns.weight)) return false;
-  const Gaps gaps = gaps_of(record, size, columns);
-  const bool is_miss = gaps.all_first && (!columns.hit || record[*columns.hit] == 0);
-  return !gaps.others && (!gaps.any_first || is_miss) && (!gaps.any_second || gaps.all_second);
-}
-
-bool is_missing(float value) { return !(std::fabs(value) <= largest_value); }
-
-/// A ray that hit nothing has no features, which is no fault: a sky.
-bool is_miss(const float* record, const Columns& columns) {
-  if (columns.hit) return record[*columns.hit] == 0;
-  return std::all_of(columns.first_hit.begin(), columns.first_hit.end(),
-                     [&](std::size_t c) { return is_missing(record[c]); });
-}
-
-/// Marks what is missing, and counts the sample where it should not be: at a hit, or of what every sample has.
-void mark_missing(float* record, const Columns& columns, CleanFindings& findings, std::size_t pixel) {
-  const bool miss = is_miss(record, columns);
-  const auto has_any = [&](const std::vector<std::size_t>& hit) {
-    return std::any_of(hit.begin(), hit.end(), [&](std::size_t c) { return !is_missing(record[c]); });
-  };
-  const bool second = !miss && has_any(columns.second_hit);
-  bool any = false;
-  const auto mark = [&](const auto& of, bool counts) {
-    for (const std::size_t c : of) {  // without branches, which no processor would guess
-      const bool is = is_missing(record[c]), is_counted = is && counts;
-      record[c] = is ? missing : record[c];
-      findings.missing_columns[c] = static_cast<char>(findings.missing_columns[c] | static_cast<char>(is_counted));
-      any |= is_counted;
-    }
-  };
-  mark(columns.film, true);
-  mark(columns.random, true);
-  mark(columns.first_hit, !miss);
-  mark(columns.second_hit, second);
-  if (any) findings.missing.add(pixel);
-}
-
-void clean_record(float* record, const Columns& columns, bool clamp_negative, CleanFindings& findings,
-                  std::size_t pixel) {
-  for (const std::size_t c : columns.color) {
-    if (!(record[c] < 0)) continue;
-    findings.negative.add(pixel);
-    if (clamp_negative) record[c] = 0;
-  }
-  if (columns.alpha && !(std::fabs(record[*columns.alpha]) <= largest_value)) {
-    findings.alpha.add(pixel);
-    record[*columns.alpha] = 0;
-  }
-  mark_missing(record, columns, findings, pixel);
 }
 
 std::string list_of(const std::vector<char>& columns, const SampleLayout& layout) {
@@ -159,54 +53,40 @@ std::vector<InputNote> notes_of(const CleanFindings& findings, const SampleBuffe
   return notes;
 }
 
-/// What a sample without a usable color or weight keeps: it waits for the color of its pixel's neighbors.
-void clean_lost_record(float* record, const Columns& columns, bool clamp_negative, CleanFindings& findings,
-                       std::size_t pixel) {
-  for (const std::size_t c : columns.color) record[c] = 0;
-  if (columns.weight) record[*columns.weight] = 1;
-  clean_record(record, columns, clamp_negative, findings, pixel);
+bool is_any_marked(const Marks& marks, std::uint32_t begin, std::uint32_t end) {
+  return std::any_of(marks.begin() + begin, marks.begin() + end, [](std::uint8_t mark) { return mark != 0; });
 }
 
-/// Moves the samples of a pixel that can be used to `kept`, all of them where none can. Returns how many.
-std::uint32_t keep_samples(SampleBuffer& samples, std::uint32_t begin, std::uint32_t end, std::uint32_t kept,
-                           const Columns& columns, bool clamp_negative, CleanFindings& findings, std::size_t pixel) {
-  const std::size_t stride = samples.layout.size();
-  std::uint32_t count = 0;
-  for (std::uint32_t sample = begin; sample < end; ++sample) {
-    float* record = samples.record(sample);
-    if (!is_plain(record, stride, columns)) {
-      take_infinite(record, columns, findings, pixel);
-      if (!is_usable(record, columns, findings, pixel)) continue;
-      clean_record(record, columns, clamp_negative, findings, pixel);
-    }
-    for (const std::size_t c : columns.color) findings.brightest = std::max(findings.brightest, std::fabs(record[c]));
-    if (sample != kept + count) std::copy(record, record + stride, samples.record(kept + count));
-    ++count;
-  }
-  if (count > 0 || begin == end) return count;
-  for (std::uint32_t sample = begin; sample < end; ++sample) {
-    float* record = samples.record(sample);
-    clean_lost_record(record, columns, clamp_negative, findings, pixel);
-    if (sample != kept + count) std::copy(record, record + stride, samples.record(kept + count));
-    ++count;
-  }
-  findings.lost.add(pixel);
-  return count;
+/// Pixels that a thread looks at: from where to before where their samples, some thousand, are in its cache twice.
+std::vector<std::size_t> parts_of(const SampleBuffer& rows) {
+  constexpr std::uint32_t samples_of_part = 2048;
+  std::vector<std::size_t> ends = {0};
+  const std::size_t pixels = rows.first_sample.size() - 1;
+  for (std::size_t place = 1; place <= pixels; ++place)
+    if (place == pixels || rows.first_sample[place] - rows.first_sample[ends.back()] >= samples_of_part)
+      ends.push_back(place);
+  return ends;
 }
 
-/// Cleans all pixels; `before` and `after` are told the place of each, and `after` which samples it keeps and whether
-/// it had to lose them all.
+/// Cleans what is marked and moves all samples together. `before` hears of a pixel with marked samples, which are still
+/// as they were; `after` of every pixel, which samples it keeps.
 template <class Before, class After>
-void clean_rows(SampleBuffer& rows, std::size_t first, const Columns& columns, bool clamp_negative,
-                CleanFindings& findings, const Before& before, const After& after) {
+void clean_marked(SampleBuffer& rows, std::size_t first, const Marks& marks, const Columns& columns,
+                  bool clamp_negative, CleanFindings& findings, const Before& before, const After& after) {
+  SampleCleaner cleaner(columns, clamp_negative, findings);
   std::uint32_t kept = 0;
   for (std::size_t place = 0; place + 1 < rows.first_sample.size(); ++place) {
-    before(place);
     const std::uint32_t begin = std::exchange(rows.first_sample[place], kept), end = rows.first_sample[place + 1];
-    const std::uint64_t lost_before = findings.lost.count;
-    kept += keep_samples(rows, begin, end, kept, columns, clamp_negative, findings, first + place);
+    const bool is_marked = is_any_marked(marks, begin, end);
     if (begin == end) findings.empty.add(first + place);
-    after(place, rows.first_sample[place], kept, findings.lost.count > lost_before);
+    if (is_marked) {
+      before(place, begin, end);
+      kept += cleaner.keep_samples(rows, begin, end, kept, marks, first + place);
+    } else {
+      move_samples(rows, begin, end, kept);
+      kept += end - begin;
+    }
+    after(place, rows.first_sample[place], kept, is_marked);
   }
   rows.first_sample.back() = kept;
   rows.values.resize(kept * rows.layout.size());
@@ -229,15 +109,12 @@ Columns find_columns(const SampleBuffer& samples, bool clamp_infinite) {
   c.weight = layout.find("weight");
   c.hit = layout.find("feature.hit");
   c.normal = all_of(layout, {"feature.N.X", "feature.N.Y", "feature.N.Z"});
-  c.is_first.resize(layout.size());
-  c.is_second.resize(layout.size());
   for (std::size_t i = 0; i < layout.size(); ++i) {
     if (is_random_slot(layout.slots[i])) c.random.push_back(i);
     if (!is_feature_slot(layout.slots[i])) continue;
     const std::string group = group_of(layout.slots[i]);
     if (group == "P") c.position.push_back(i);
     (is_second_hit(group) ? c.second_hit : c.first_hit).push_back(i);
-    (is_second_hit(group) ? c.is_second : c.is_first)[i] = ~0;
   }
   return c;
 }
@@ -246,10 +123,11 @@ std::size_t first_pixel(const Window& rows, const Window& data_window) {
   return static_cast<std::size_t>(rows.y - data_window.y) * static_cast<std::size_t>(data_window.width);
 }
 
-Cleaning::Cleaning(const SampleBuffer& frame, const Columns& columns, bool clamp_negative)
+Cleaning::Cleaning(const SampleBuffer& frame, const Columns& columns, const Settings& settings)
     : frame_(frame),
       columns_(columns),
-      clamp_negative_(clamp_negative),
+      clamp_negative_(settings.clamp_negative),
+      threads_(thread_count(settings)),
       conventions_(frame),
       colors_(frame.data_window.pixel_count()) {
   findings_.missing_columns.resize(frame.layout.size());
@@ -257,17 +135,46 @@ Cleaning::Cleaning(const SampleBuffer& frame, const Columns& columns, bool clamp
 
 void Cleaning::add(SampleBuffer& rows, const Seen& seen) {
   const std::size_t first = first_pixel(rows.data_window, frame_.data_window);
-  clean_rows(
-      rows, first, columns_, clamp_negative_, findings_,
-      [&](std::size_t place) { conventions_.add(rows, place, first + place); },
-      [&](std::size_t place, std::uint32_t begin, std::uint32_t end, bool lost) {
+  const Marks marks = look(rows, first, seen);
+  clean_marked(
+      rows, first, marks, columns_, clamp_negative_, findings_,
+      [&](std::size_t place, std::uint32_t begin, std::uint32_t end) {
+        for (std::uint32_t i = begin; i < end; ++i)
+          if ((marks[i] & odd) != 0) conventions_.add(rows.record(i), first + place);
+      },
+      [&](std::size_t place, std::uint32_t begin, std::uint32_t end, bool is_marked) {
         most_samples_ = std::max(most_samples_, end - begin);
-        if (lost)
+        if (findings_.lost.count > lost_.size())
           lost_.push_back({first + place, end - begin, {}});
-        else
+        else if (is_marked)
           colors_[first + place] = color_of_samples(rows, columns_, begin, end);
-        if (seen) seen(place, begin, end);
+        if (is_marked && seen) seen(place, begin, end);
       });
+}
+
+/// On all threads; also what is to be known of the pixels that are clean.
+Marks Cleaning::look(const SampleBuffer& rows, std::size_t first, const Seen& seen) {
+  const std::vector<std::size_t> parts = parts_of(rows);
+  std::vector<Conventions::Found> found(parts.size());
+  std::vector<float> brightest(parts.size());
+  Marks marks(rows.sample_count());
+  Workers(threads_).for_all(1, parts.size(), [&](std::size_t n, std::size_t /*worker*/) {
+    Glance glance(rows.layout, columns_, &conventions_);
+    glance.look(rows, parts[n - 1], parts[n], marks.data());
+    brightest[n] = glance.brightest();
+    for (std::size_t place = parts[n - 1]; place < parts[n]; ++place) {
+      const std::uint32_t begin = rows.first_sample[place], end = rows.first_sample[place + 1];
+      conventions_.look(rows, place, first + place, found[n]);
+      if (is_any_marked(marks, begin, end)) continue;
+      colors_[first + place] = color_of_samples(rows, columns_, begin, end);
+      if (seen) seen(place, begin, end);
+    }
+  });
+  for (std::size_t n = 1; n < parts.size(); ++n) {
+    conventions_.add(found[n]);
+    findings_.brightest = std::max(findings_.brightest, brightest[n]);
+  }
+  return marks;
 }
 
 bool Cleaning::lacks_positions() const {
@@ -293,12 +200,16 @@ CleanReport Cleaning::report() {
   return report;
 }
 
-void clean_again(SampleBuffer& rows, const Columns& columns, bool clamp_negative) {
+void clean_again(SampleBuffer& rows, const Columns& columns, const Settings& settings) {
+  const std::vector<std::size_t> parts = parts_of(rows);
+  Marks marks(rows.sample_count());
+  Workers(thread_count(settings)).for_all(1, parts.size(), [&](std::size_t n, std::size_t /*worker*/) {
+    Glance(rows.layout, columns, nullptr).look(rows, parts[n - 1], parts[n], marks.data());
+  });
   CleanFindings found_before;
   found_before.missing_columns.resize(rows.layout.size());
-  clean_rows(
-      rows, 0, columns, clamp_negative, found_before, [](std::size_t /*place*/) {},
-      [](std::size_t /*place*/, std::uint32_t /*begin*/, std::uint32_t /*end*/, bool /*lost*/) {});
+  const auto ignore = [](auto... /*of a pixel*/) {};
+  clean_marked(rows, 0, marks, columns, settings.clamp_negative, found_before, ignore, ignore);
 }
 
 void fill_lost(SampleBuffer& rows, const Window& data_window, const Columns& columns, const CleanReport& report) {

@@ -12,11 +12,16 @@
 #include "frame/tally.h"
 #include "rpf/filter.h"
 #include "rpf/samples.h"
+#include "rpf/settings.h"
 
 namespace rpf {
 
 /// What stands in the place of a value that is missing.
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
+
+/// Larger feature values count as missing: their squares would not survive a sum, and renderers write such values for
+/// "no hit". Nor would sums of larger weights or alphas.
+constexpr float largest_value = 1e15F;
 
 /// Where the slots that preparing a frame needs stand in a record.
 struct Columns {
@@ -26,7 +31,6 @@ struct Columns {
   std::vector<std::size_t> position;               ///< of the first hit: the components there are
   std::vector<std::size_t> random;                 ///< random parameters
   std::vector<std::size_t> first_hit, second_hit;  ///< the features of each
-  std::vector<std::int32_t> is_first, is_second;   ///< [column] all bits where it is one of these, else none
   /// Of R, G, B: what an infinite value stands for; 0 where nothing does.
   float largest[3] = {0, 0, 0};
 };
@@ -64,17 +68,24 @@ struct CleanFindings {
   float brightest = 0;
 };
 
-/// Cleans a frame, all at once or rows after rows. Takes infinite radiance for the largest value of its type where
-/// Columns::largest says so, leaves out samples whose color is not finite or whose weight is none, and marks unusable
-/// features, random parameters and film positions as missing (NaN). A pixel that loses all its samples keeps them, with
-/// weight 1; fill_lost() gives them the color of its neighbors. Buffers shrink in place.
+/// What is said of a sample: bits.
+enum SampleMark : std::uint8_t {
+  unclean = 1,  ///< has to be cleaned
+  odd = 2       ///< may contradict a convention
+};
+using Marks = std::vector<std::uint8_t>;  ///< [sample] SampleMark
+
+/// Cleans a frame, all at once or rows after rows, on all threads. Takes infinite radiance for the largest value of its
+/// type where Columns::largest says so, leaves out samples whose color is not finite or whose weight is none, and marks
+/// unusable features, random parameters and film positions as missing (NaN). A pixel that loses all its samples keeps
+/// them, with weight 1; fill_lost() gives them the color of its neighbors. Buffers shrink in place.
 class Cleaning {
  public:
   /// `frame`: may be without its samples. It and the columns outlive this.
-  Cleaning(const SampleBuffer& frame, const Columns& columns, bool clamp_negative);
+  Cleaning(const SampleBuffer& frame, const Columns& columns, const Settings& settings);
 
   /// Hears of a pixel as soon as it is clean, while the cache still has its samples: its place in the rows, and from
-  /// which to before which sample it has them.
+  /// which to before which sample it has them. Called by several threads at once, and in any order.
   using Seen = std::function<void(std::size_t place, std::uint32_t begin, std::uint32_t end)>;
 
   /// Cleans the next rows, whose data window is their part of the frame's. Contradictions of the conventions are noted
@@ -86,9 +97,12 @@ class Cleaning {
   CleanReport report();
 
  private:
+  Marks look(const SampleBuffer& rows, std::size_t first, const Seen& seen);
+
   const SampleBuffer& frame_;
   const Columns& columns_;
   bool clamp_negative_;
+  int threads_;
   CleanFindings findings_;
   Conventions conventions_;
   std::uint32_t most_samples_ = 0;
@@ -97,7 +111,7 @@ class Cleaning {
 };
 
 /// Cleans rows once more that were read again.
-void clean_again(SampleBuffer& rows, const Columns& columns, bool clamp_negative);
+void clean_again(SampleBuffer& rows, const Columns& columns, const Settings& settings);
 
 /// Gives the lost pixels among the rows their color, once all rows of the frame were looked at; leaves none of the
 /// samples where no pixel has a color.

@@ -15,14 +15,18 @@ namespace {
 constexpr double nearly_all = 0.9;  // some agree by chance with ours, and so are not among those that contradict it
 
 /// Random numbers; 1 itself is what half makes of the largest below it.
-class RandomCheck : public SampleCheck<RandomCheck> {
+class RandomCheck : public SampleCheck {
  public:
   explicit RandomCheck(const SampleLayout& layout) : layout_(layout), wrong_(layout.size()) {
     for (std::size_t c = 0; c < layout.size(); ++c)
       if (is_random_slot(layout.slots[c])) columns_.push_back(c);
   }
 
-  void add_sample(const float* record, std::size_t pixel) {
+  void look(const ColumnBlock& records, const PixelCorners& /*corners*/, BlockMask& odd) const override {
+    for (const std::size_t c : columns_) mark_outside(records[c], 0, 1, odd);
+  }
+
+  void add(const float* record, std::size_t pixel) override {
     for (const std::size_t c : columns_) {
       const float value = record[c];
       if ((value >= 0 && value <= 1) || !std::isfinite(value)) continue;
@@ -50,27 +54,29 @@ class RandomCheck : public SampleCheck<RandomCheck> {
 };
 
 /// Pixels whose samples are copies of one: a sampler that starts anew for every sample.
-class CopyCheck : public ConventionCheck {
+class CopyCheck : public PixelCheck {
  public:
-  void add(const SampleBuffer& rows, std::size_t place, std::size_t pixel) override {
+  void look(const SampleBuffer& rows, std::size_t place, std::size_t pixel, PixelFindings& found) const override {
     const std::uint32_t begin = rows.first_sample[place], end = rows.first_sample[place + 1];
     for (std::uint32_t i = begin + 1; i < end; ++i)
       if (std::memcmp(rows.record(begin), rows.record(i), rows.layout.size() * sizeof(float)) != 0) return;
-    if (end - begin > 1) copies_.add(pixel);
+    if (end - begin > 1) found.wrong.add(pixel);
   }
 
-  void tell(const Window& data_window, std::vector<InputNote>& notes) const override {
-    copies_.tell(
+  void tell(const PixelFindings& found, const Window& data_window, std::vector<InputNote>& notes) const override {
+    found.wrong.tell(
         "pixels whose samples are all the same, which tells nothing about noise; give each sample random numbers of "
         "its own",
         data_window, notes);
   }
-
- private:
-  Tally copies_;
 };
 
 }  // namespace
+
+void mark_outside(const float* values, float least, float most, BlockMask& odd) {
+  for (std::size_t i = 0; i < block_records; ++i)
+    odd[i] |= static_cast<std::int32_t>(values[i] < least) | static_cast<std::int32_t>(values[i] > most);
+}
 
 std::string advice_of(const std::vector<Guess>& guesses, std::uint64_t count, const std::string& otherwise) {
   for (const Guess& guess : guesses)
@@ -90,20 +96,37 @@ std::vector<std::size_t> columns_of(const SampleLayout& layout, const std::strin
 
 Conventions::Conventions(const SampleBuffer& frame) {
   add_film_check(frame, checks_);
-  checks_.push_back(std::make_unique<RandomCheck>(frame.layout));
+  checks_.of_samples.push_back(std::make_unique<RandomCheck>(frame.layout));
   add_surface_checks(frame, checks_);
-  checks_.push_back(std::make_unique<CopyCheck>());
+  checks_.of_pixels.push_back(std::make_unique<CopyCheck>());
+}
+
+void Conventions::look(const SampleBuffer& rows, std::size_t place, std::size_t pixel, Found& found) const {
+  found.resize(checks_.of_pixels.size());
+  for (std::size_t i = 0; i < found.size(); ++i) checks_.of_pixels[i]->look(rows, place, pixel, found[i]);
+}
+
+void Conventions::add(const Found& later) {
+  found_.resize(checks_.of_pixels.size());
+  for (std::size_t i = 0; i < later.size(); ++i) found_[i].join(later[i]);
+}
+
+void Conventions::add_all(const SampleBuffer& rows, std::size_t place, std::size_t pixel) {
+  for (std::uint32_t i = rows.first_sample[place]; i < rows.first_sample[place + 1]; ++i) add(rows.record(i), pixel);
+  look(rows, place, pixel, found_);
 }
 
 std::vector<InputNote> Conventions::notes(const Window& data_window) const {
   std::vector<InputNote> notes;
-  for (const auto& check : checks_) check->tell(data_window, notes);
+  for (const auto& check : checks_.of_samples) check->tell(data_window, notes);
+  for (std::size_t i = 0; i < found_.size(); ++i) checks_.of_pixels[i]->tell(found_[i], data_window, notes);
   return notes;
 }
 
 std::vector<InputNote> check_conventions(const SampleBuffer& samples) {
   Conventions conventions(samples);
-  for (std::size_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel) conventions.add(samples, pixel, pixel);
+  for (std::size_t pixel = 0; pixel + 1 < samples.first_sample.size(); ++pixel)
+    conventions.add_all(samples, pixel, pixel);
   return conventions.notes(samples.data_window);
 }
 

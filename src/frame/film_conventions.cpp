@@ -15,7 +15,7 @@ struct Place {
 /// Rounding may carry a position over the border of its pixel; half holds 11 bits.
 double slack(double at, bool is_half) { return 1e-3 + std::fabs(at) * (is_half ? 1.0 / 1024 : 1.0 / (1 << 22)); }
 
-class FilmCheck : public SampleCheck<FilmCheck> {
+class FilmCheck : public SampleCheck {
  public:
   explicit FilmCheck(const SampleBuffer& samples)
       : window_(samples.data_window),
@@ -24,7 +24,12 @@ class FilmCheck : public SampleCheck<FilmCheck> {
     enter(0);
   }
 
-  void add_sample(const float* record, std::size_t pixel) {
+  void look(const ColumnBlock& records, const PixelCorners& corners, BlockMask& odd) const override {
+    mark_outside(records[columns_[0]], corners.x, odd);
+    mark_outside(records[columns_[1]], corners.y, odd);
+  }
+
+  void add(const float* record, std::size_t pixel) override {
     const Place at{record[columns_[0]], record[columns_[1]]};
     if (pixel != pixel_) enter(pixel);
     if (is_in(corner_, at) || !std::isfinite(at.x) || !std::isfinite(at.y)) return;
@@ -40,6 +45,13 @@ class FilmCheck : public SampleCheck<FilmCheck> {
   }
 
  private:
+  /// Without the slack, which floats would not hold.
+  static void mark_outside(const float* values, const float (&corners)[block_records], BlockMask& odd) {
+    for (std::size_t i = 0; i < block_records; ++i)
+      odd[i] |=
+          static_cast<std::int32_t>(values[i] < corners[i]) | static_cast<std::int32_t>(values[i] > corners[i] + 1);
+  }
+
   void enter(std::size_t pixel) {
     const auto width = static_cast<std::size_t>(window_.width);
     pixel_ = pixel;
@@ -86,7 +98,7 @@ class FilmCheck : public SampleCheck<FilmCheck> {
 }  // namespace
 
 void add_film_check(const SampleBuffer& samples, ConventionChecks& checks) {
-  checks.push_back(std::make_unique<FilmCheck>(samples));
+  checks.of_samples.push_back(std::make_unique<FilmCheck>(samples));
 }
 
 }  // namespace rpf

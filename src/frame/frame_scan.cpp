@@ -22,15 +22,14 @@ Source source_of(const SampleLayout& layout, const std::string& slot) {
   return {Source::plain, *layout.find(slot), 0};
 }
 
-float value_of(const float* record, const Source& source, float scale) {
-  const float value = record[source.column];
+float value_of(float value, const Source& source, float scale) {
   if (source.kind == Source::color) return value * scale;
   return source.kind == Source::fraction ? value - std::floor(value) : value - source.origin;
 }
 
 FrameScan::FrameScan(const SampleBuffer& frame, const Settings& settings)
     : clean_(begin_frame(frame, settings)),
-      cleaning_(clean_.frame, clean_.columns, settings.clamp_negative),
+      cleaning_(clean_.frame, clean_.columns, settings),
       low_(clean_.columns.position.size(), std::numeric_limits<double>::infinity()),
       high_(low_.size(), -std::numeric_limits<double>::infinity()) {
   for (const auto* slots : {&clean_.selection.random, &clean_.selection.features})
@@ -46,7 +45,7 @@ void FrameScan::add(SampleBuffer& rows) {
 
 void FrameScan::look_for_variation(const SampleBuffer& rows, Channel& channel) const {
   for (std::size_t i = 0; i < rows.sample_count() && !channel.varies; ++i) {
-    const float value = value_of(rows.record(i), channel.source, 1);
+    const float value = value_of(rows.record(i)[channel.source.column], channel.source, 1);
     if (std::isnan(channel.first)) channel.first = value;
     channel.varies = value < channel.first || value > channel.first;
   }

@@ -34,7 +34,8 @@ struct Source {
 /// Of a selected slot.
 Source source_of(const SampleLayout& layout, const std::string& slot);
 
-float value_of(const float* record, const Source& source, float scale);
+/// Of a record whose column has this value.
+float value_of(float value, const Source& source, float scale);
 
 class FrameScan {
  public:

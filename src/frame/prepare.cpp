@@ -8,6 +8,7 @@
 #include "frame/feature_spread.h"
 #include "frame/frame_scan.h"
 #include "frame/repack.h"
+#include "parallel/thread_count.h"
 #include "rpf/methods.h"
 
 namespace rpf {
@@ -64,12 +65,14 @@ PreparedFrame prepare_rows(SampleBuffer rows, const SampleBuffer& whole, const F
   result.colors = carried_values(clean, true);
   Frame& frame = result.frame;
   frame.variables = variables.size();
-  const auto make = [&, stride = whole.layout.size()](const float* records, float* to, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
+  std::vector<std::size_t> columns;
+  for (const Source& source : variables) columns.push_back(source.column);
+  const auto make = [&](const ColumnBlock& records, float* to) {
+    for (std::size_t i = 0; i < records.count(); ++i)
       for (const Source& source : variables)
-        *to++ = value_of(records + i * stride, source, result.facts.radiance_scale);
+        *to++ = value_of(records[source.column][i], source, result.facts.radiance_scale);
   };
-  frame.records = repack(clean.samples, variables.size(), make);
+  frame.records = repack(clean.samples, variables.size(), {columns, whole.layout.size()}, thread_count(settings), make);
   frame.has_missing = std::any_of(frame.records.begin(), frame.records.end(), [](float x) { return std::isnan(x); });
   frame.first_sample =
       first_sample_in_frame(std::move(clean.samples.first_sample), clean.samples.data_window, whole.data_window);

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
+#include "frame/column_block.h"
+#include "parallel/workers.h"
 #include "rpf/samples.h"
 
 namespace rpf {
@@ -13,27 +16,55 @@ namespace rpf {
 /// Gives the memory behind the last element back: shrink_to_fit() would copy, and need both at once.
 void release_tail(std::vector<float>& values);
 
-/// Records that are made at once: their values, one after the other of each variable, stay in the first cache.
-constexpr std::size_t block_records = 64;
+/// Records that a thread makes before it writes them.
+constexpr std::size_t piece_records = 16 * block_records;
+
+struct RepackScratch {
+  ColumnBlock block;
+  std::vector<float> made;
+};
+
+/// In which order pieces of records are made so that none is written over one that is still to be read.
+class RepackOrder {
+ public:
+  /// Records of `from` values become records of `width`, where those lie or elsewhere.
+  RepackOrder(std::size_t count, std::size_t from, std::size_t width, bool in_place);
+
+  std::size_t pieces() const { return taken_.size(); }
+  /// The records first .. end - 1 whose turn it is: of longer ones the last come first.
+  std::pair<std::size_t, std::size_t> records(std::size_t turn) const;
+  /// Says that those were read, and waits until all were that lie where they are to be written. Turns are taken in
+  /// ascending order. False: the work is to end.
+  bool may_write(std::size_t turn);
+
+ private:
+  std::size_t count_, from_, width_;
+  bool in_place_;
+  std::vector<std::atomic<bool>> taken_;  ///< [piece]
+};
 
 /// Records of `width` values in the place of the buffer's own where there is room; its values are gone afterwards.
-/// `make(from, to, count)` writes up to block_records of them. Longer records are made from the last on, so that none
-/// overwrites one that is still to be read.
+/// `make(records, to)` writes those of a block, which has the columns that `records` was made for; on so many threads.
 template <typename Make>
-std::vector<float> repack(SampleBuffer& samples, std::size_t width, const Make& make) {
+std::vector<float> repack(SampleBuffer& samples, std::size_t width, const ColumnBlock& records, int threads,
+                          const Make& make) {
   const std::size_t count = samples.sample_count(), from = samples.layout.size();
   std::vector<float> elsewhere;
   const bool in_place = count * width <= samples.values.capacity();
   std::vector<float>& target = in_place ? samples.values : elsewhere;
   target.resize(count * std::max(in_place ? from : 0, width));
-  std::vector<float> copy(block_records * from);
-  const std::size_t blocks = (count + block_records - 1) / block_records;
-  for (std::size_t n = 0; n < blocks; ++n) {
-    const std::size_t first = (width > from ? blocks - 1 - n : n) * block_records;
-    const std::size_t number = std::min(block_records, count - first);
-    std::copy_n(samples.values.data() + first * from, number * from, copy.begin());
-    make(static_cast<const float*>(copy.data()), target.data() + first * width, number);
-  }
+  RepackOrder order(count, from, width, in_place);
+  Workers workers(threads);
+  std::vector<RepackScratch> scratch(workers.count(), {records, std::vector<float>(piece_records * width)});
+  workers.for_all(0, order.pieces(), [&](std::size_t turn, std::size_t worker) {
+    const auto [first, end] = order.records(turn);
+    RepackScratch& own = scratch[worker];
+    for (std::size_t i = first; i < end; i += block_records) {
+      own.block.take(samples.values.data() + i * from, std::min(block_records, end - i));
+      make(static_cast<const ColumnBlock&>(own.block), own.made.data() + (i - first) * width);
+    }
+    if (order.may_write(turn)) std::copy_n(own.made.data(), (end - first) * width, target.data() + first * width);
+  });
   target.resize(count * width);
   release_tail(target);
   return std::move(target);

@@ -29,23 +29,23 @@ bool is_unit(const Vector& v) {
   return square >= least && square <= most;
 }
 
-/// A check of samples that hit something: `Check` has add_hit(record, pixel).
-template <typename Check>
-class HitCheck : public SampleCheck<HitCheck<Check>> {
- public:
-  explicit HitCheck(const SampleLayout& layout) : hit_(layout.find("feature.hit")) {}
-  void add_sample(const float* record, std::size_t pixel) {
-    if (!hit_ || record[*hit_] != 0) static_cast<Check*>(this)->add_hit(record, pixel);
-  }
+bool is_hit(const float* record, const std::optional<std::size_t>& hit) { return !hit || record[*hit] != 0; }
 
- private:
-  std::optional<std::size_t> hit_;
-};
-
-class NormalCheck : public HitCheck<NormalCheck> {
+class NormalCheck : public SampleCheck {
  public:
   NormalCheck(const SampleLayout& layout, std::string group, std::vector<std::size_t> columns)
-      : HitCheck(layout), group_(std::move(group)), columns_(std::move(columns)) {}
+      : hit_(layout.find("feature.hit")), group_(std::move(group)), columns_(std::move(columns)) {}
+
+  void look(const ColumnBlock& records, const PixelCorners& /*corners*/, BlockMask& odd) const override {
+    constexpr float least = 1 - unit_slack, most = 1 + unit_slack;  // of a square: half the slack of a length
+    const float *x = records[columns_[0]], *y = records[columns_[1]], *z = records[columns_[2]];
+    for (std::size_t i = 0; i < block_records; ++i) {
+      const float square = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+      const std::int32_t any = static_cast<std::int32_t>(x[i] != 0) | static_cast<std::int32_t>(y[i] != 0) |
+                               static_cast<std::int32_t>(z[i] != 0);
+      odd[i] |= (static_cast<std::int32_t>(square < least) & any) | static_cast<std::int32_t>(square > most);
+    }
+  }
 
   void tell(const Window& data_window, std::vector<InputNote>& notes) const override {
     wrong_.tell(fmt::format("normals {} whose length is not 1{}", group_,
@@ -53,7 +53,8 @@ class NormalCheck : public HitCheck<NormalCheck> {
                 data_window, notes);
   }
 
-  void add_hit(const float* record, std::size_t pixel) {
+  void add(const float* record, std::size_t pixel) override {
+    if (!is_hit(record, hit_)) return;
     const Vector n = vector_at(record, columns_);
     if (is_unit(n) || dot(n, n) == 0 || !std::isfinite(dot(n, n))) return;  // (0,0,0): nothing was hit
     wrong_.add(pixel);
@@ -62,16 +63,17 @@ class NormalCheck : public HitCheck<NormalCheck> {
   }
 
  private:
+  std::optional<std::size_t> hit_;
   std::string group_;
   std::vector<std::size_t> columns_;
   Tally wrong_;
   Guess encoded_{"which look encoded to 0 to 1; write 2 N - 1"};
 };
 
-class AlbedoCheck : public HitCheck<AlbedoCheck> {
+class AlbedoCheck : public SampleCheck {
  public:
   AlbedoCheck(const SampleLayout& layout, std::string group, std::vector<std::size_t> columns)
-      : HitCheck(layout), group_(std::move(group)), columns_(std::move(columns)) {}
+      : hit_(layout.find("feature.hit")), group_(std::move(group)), columns_(std::move(columns)) {}
 
   void tell(const Window& data_window, std::vector<InputNote>& notes) const override {
     wrong_.tell(fmt::format("values of {} far from 0 to 1{}", group_,
@@ -79,7 +81,12 @@ class AlbedoCheck : public HitCheck<AlbedoCheck> {
                 data_window, notes);
   }
 
-  void add_hit(const float* record, std::size_t pixel) {
+  void look(const ColumnBlock& records, const PixelCorners& /*corners*/, BlockMask& odd) const override {
+    for (const std::size_t c : columns_) mark_outside(records[c], 0, most_reflected, odd);
+  }
+
+  void add(const float* record, std::size_t pixel) override {
+    if (!is_hit(record, hit_)) return;
     for (const std::size_t c : columns_) {
       const float value = record[c];
       if ((value <= most_reflected && value >= 0) || !std::isfinite(value)) continue;
@@ -90,6 +97,7 @@ class AlbedoCheck : public HitCheck<AlbedoCheck> {
   }
 
  private:
+  std::optional<std::size_t> hit_;
   std::string group_;
   std::vector<std::size_t> columns_;
   Tally wrong_;
@@ -98,41 +106,44 @@ class AlbedoCheck : public HitCheck<AlbedoCheck> {
 
 /// Neighbors on a surface differ in directions that its normal is at right angles to. Where most do not, positions and
 /// normals are of two spaces: world and camera.
-class SpaceCheck : public HitCheck<SpaceCheck> {
+class SpaceCheck : public PixelCheck {
  public:
   SpaceCheck(const SampleLayout& layout, std::vector<std::size_t> normal, std::vector<std::size_t> position)
-      : HitCheck(layout), normal_(std::move(normal)), position_(std::move(position)) {}
+      : hit_(layout.find("feature.hit")), normal_(std::move(normal)), position_(std::move(position)) {}
 
-  void tell(const Window& data_window, std::vector<InputNote>& notes) const override {
+  void look(const SampleBuffer& rows, std::size_t place, std::size_t pixel, PixelFindings& found) const override {
+    const float* before = nullptr;
+    for (std::uint32_t i = rows.first_sample[place]; i < rows.first_sample[place + 1]; ++i) {
+      const float* record = rows.record(i);
+      if (!is_hit(record, hit_)) continue;
+      if (before != nullptr) look_at_pair(before, record, pixel, found);
+      before = record;
+    }
+  }
+
+  void tell(const PixelFindings& found, const Window& data_window, std::vector<InputNote>& notes) const override {
     constexpr std::uint64_t fewest = 16;  // pairs that can prove something
-    if (pairs_ < fewest || wrong_.count * 2 <= pairs_) return;
-    wrong_.tell(
+    if (found.looked_at < fewest || found.wrong.count * 2 <= found.looked_at) return;
+    found.wrong.tell(
         "positions P that do not lie on surfaces with the normals N, as if one were in camera space; write both in "
         "world space",
         data_window, notes);
   }
 
-  void add_hit(const float* record, std::size_t pixel) {
-    const float* before = pixel == pixel_ ? before_ : nullptr;
-    before_ = record;
-    pixel_ = pixel;
-    if (before == nullptr) return;
+ private:
+  void look_at_pair(const float* before, const float* record, std::size_t pixel, PixelFindings& found) const {
     const Vector n = vector_at(record, normal_), p = vector_at(record, position_), q = vector_at(before, position_);
     const Vector step{p[0] - q[0], p[1] - q[1], p[2] - q[2]};
     const double square = dot(step, step);
     // Also false where something is not finite.
     if (!(is_unit(n) && dot(n, vector_at(before, normal_)) > near_parallel && square > 1e-8 * dot(p, p))) return;
-    ++pairs_;
+    ++found.looked_at;
     const double across = dot(n, step);
-    if (across * across > off_surface * off_surface * square) wrong_.add(pixel);
+    if (across * across > off_surface * off_surface * square) found.wrong.add(pixel);
   }
 
- private:
+  std::optional<std::size_t> hit_;
   std::vector<std::size_t> normal_, position_;
-  const float* before_ = nullptr;
-  std::size_t pixel_ = 0;
-  std::uint64_t pairs_ = 0;
-  Tally wrong_;
 };
 
 }  // namespace
@@ -141,13 +152,13 @@ void add_surface_checks(const SampleBuffer& samples, ConventionChecks& checks) {
   const SampleLayout& layout = samples.layout;
   for (const std::string group : {"N", "Ns", "Ng", "N2"})
     if (auto columns = columns_of(layout, "feature." + group, "XYZ"); !columns.empty())
-      checks.push_back(std::make_unique<NormalCheck>(layout, group, std::move(columns)));
+      checks.of_samples.push_back(std::make_unique<NormalCheck>(layout, group, std::move(columns)));
   for (const std::string group : {"albedo", "albedo2"})
     if (auto columns = columns_of(layout, "feature." + group, "RGB"); !columns.empty())
-      checks.push_back(std::make_unique<AlbedoCheck>(layout, group, std::move(columns)));
+      checks.of_samples.push_back(std::make_unique<AlbedoCheck>(layout, group, std::move(columns)));
   auto normal = columns_of(layout, "feature.N", "XYZ"), position = columns_of(layout, "feature.P", "XYZ");
   if (!normal.empty() && !position.empty())
-    checks.push_back(std::make_unique<SpaceCheck>(layout, std::move(normal), std::move(position)));
+    checks.of_pixels.push_back(std::make_unique<SpaceCheck>(layout, std::move(normal), std::move(position)));
 }
 
 }  // namespace rpf

@@ -18,6 +18,11 @@ struct Tally {
   void add(std::size_t pixel) {
     if (count++ == 0) first_pixel = pixel;
   }
+  /// Takes over what was found in later pixels.
+  void join(const Tally& later) {
+    if (count == 0) first_pixel = later.first_pixel;
+    count += later.count;
+  }
   /// Adds a note where something was found.
   void tell(const std::string& what, const Window& data_window, std::vector<InputNote>& notes) const {
     const auto width = static_cast<std::size_t>(data_window.width);

@@ -6,6 +6,7 @@
 #include "frame/clean_frame.h"
 #include "frame/repack.h"
 #include "learned/record_view.h"
+#include "parallel/thread_count.h"
 
 namespace rpf {
 namespace {
@@ -36,29 +37,35 @@ std::vector<int> columns_of(const EstimatePlan& plan) {
 /// Writes what the network sees in the place of records: scaled color, then the inputs that have columns.
 class RecordMaker {
  public:
-  RecordMaker(const CleanFrame& clean, const std::vector<int>& columns, const PositionFacts& positions)
-      : view_(RecordView(clean).only(columns)),
-        columns_(columns),
+  RecordMaker(const CleanFrame& clean, const std::vector<int>& inputs, const PositionFacts& positions)
+      : view_(RecordView(clean).only(inputs)),
+        inputs_(inputs),
         positions_(positions),
         color_(clean.columns.color),
-        stride_(clean.frame.layout.size()),
         scale_(clean.prepared.facts.radiance_scale) {}
 
-  void operator()(const float* records, float* to, std::size_t count) const {
+  /// For the records that are replaced.
+  ColumnBlock block() const { return view_.block({color_[0], color_[1], color_[2]}); }
+
+  void operator()(const ColumnBlock& records, float* to) const {
     InputBlock block;
-    view_.read(records, count, positions_, block);
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) *to++ = records[i * stride_ + color_[k]] * scale_;
-      for (const int input : columns_) *to++ = block.values[input][i];
+    float color[3][block_records];
+    view_.read(records, positions_, block);
+    std::vector<const float*> columns;
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::transform(records[color_[k]], records[color_[k]] + block_records, color[k],
+                     [&](float c) { return c * scale_; });
+      columns.push_back(color[k]);
     }
+    for (const int input : inputs_) columns.push_back(block.values[input]);
+    write_records(columns, records.count(), to);
   }
 
  private:
   RecordView view_;
-  const std::vector<int>& columns_;
+  const std::vector<int>& inputs_;
   const PositionFacts& positions_;
   const std::size_t* color_;
-  std::size_t stride_;
   float scale_;
 };
 
@@ -118,7 +125,8 @@ std::vector<std::uint32_t> observe_rows(SampleBuffer rows, const SampleBuffer& w
   Frame& frame = prepared.frame;
   frame.others = carried_values(clean, false);
   frame.weights = std::move(clean.prepared.frame.weights);
-  frame.records = repack(clean.samples, frame.variables, RecordMaker(clean, columns, found.positions));
+  const RecordMaker make(clean, columns, found.positions);
+  frame.records = repack(clean.samples, frame.variables, make.block(), thread_count(settings), make);
   return std::move(clean.samples.first_sample);
 }
 

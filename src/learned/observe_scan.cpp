@@ -4,6 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "parallel/thread_count.h"
+#include "parallel/workers.h"
+
 namespace rpf {
 namespace {
 
@@ -23,6 +26,9 @@ bool is_relative(int input) {
 
 PositionFacts facts_of(std::vector<float> (&positions)[3]) {
   PositionFacts facts;
+  for (std::vector<float>& component : positions)
+    component.erase(std::remove_if(component.begin(), component.end(), [](float p) { return std::isnan(p); }),
+                    component.end());
   if (positions[0].empty()) return facts;
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -37,19 +43,21 @@ PositionFacts facts_of(std::vector<float> (&positions)[3]) {
 
 ObserveScan::ObserveScan(const SampleBuffer& frame, const Settings& settings)
     : method_(settings.method),
+      threads_(thread_count(settings)),
       clean_(begin_frame(frame, settings)),
-      cleaning_(clean_.frame, clean_.columns, settings.clamp_negative),
+      cleaning_(clean_.frame, clean_.columns, settings),
       view_(clean_),
       luminances_(frame.data_window.pixel_count()) {
   for (int input = RPF_INPUT_NORMAL; input < RPF_INPUTS; ++input)
     if (view_.has(input)) (is_relative(input) ? relative_ : plain_).push_back(input);
+  for (auto& component : positions_) component.assign(luminances_.size(), missing);
 }
 
 void ObserveScan::add(SampleBuffer& rows) {
   const std::size_t first = first_pixel(rows.data_window, clean_.frame.data_window);
   cleaning_.add(rows, [&](std::size_t place, std::uint32_t begin, std::uint32_t end) {
     include_luminance(rows, first + place, begin, end);
-    include_position(rows, begin, end);
+    include_position(rows, first + place, begin, end);
   });
   if (cleaning_.lacks_positions()) center_missing_positions(rows, clean_.columns, method_);
   const auto& weight = clean_.columns.weight;
@@ -70,20 +78,50 @@ void ObserveScan::include_luminance(const SampleBuffer& rows, std::size_t pixel,
   luminances_[pixel] = begin < end ? std::max(sum / (end - begin), 0.0) : 0;
 }
 
-void ObserveScan::include_position(const SampleBuffer& rows, std::uint32_t begin, std::uint32_t end) {
+void ObserveScan::include_position(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin,
+                                   std::uint32_t end) {
   if (begin == end || !view_.has_position(rows.record(begin))) return;
-  for (std::size_t k = 0; k < 3; ++k) positions_[k].push_back(view_.position(rows.record(begin), k));
+  for (std::size_t k = 0; k < 3; ++k) positions_[k][pixel] = view_.position(rows.record(begin), k);
 }
 
 void ObserveScan::leave_constant(const SampleBuffer& rows, std::vector<int>& inputs, FirstValues& first) const {
+  const std::size_t count = rows.sample_count();
+  if (count == 0 || inputs.empty()) return;
+  if (!std::exchange(first.are_known, true)) {
+    const RecordView view = view_.only(inputs);
+    InputBlock block;
+    ColumnBlock records = view.block();
+    records.take(rows.record(0), 1);
+    view.read(records, found_.positions, block);
+    for (const int input : inputs) first.values[input] = block.values[input][0];
+  }
+  constexpr std::size_t samples_of_part = 256 * block_records;
+  // Mostly the first samples are enough.
+  inputs = constant_in(rows, 0, std::min(samples_of_part, count), std::move(inputs), first);
+  if (inputs.empty()) return;
+  const std::size_t parts = (count - 1) / samples_of_part + 1;
+  std::vector<std::vector<int>> constant(parts, inputs);
+  Workers(threads_).for_all(1, parts, [&](std::size_t n, std::size_t /*worker*/) {
+    const std::size_t begin = n * samples_of_part;
+    constant[n] = constant_in(rows, begin, std::min(begin + samples_of_part, count), inputs, first);
+  });
+  const auto varies = [&](int input) {
+    return std::any_of(constant.begin(), constant.end(), [&](const std::vector<int>& part) {
+      return std::find(part.begin(), part.end(), input) == part.end();
+    });
+  };
+  inputs.erase(std::remove_if(inputs.begin(), inputs.end(), varies), inputs.end());
+}
+
+std::vector<int> ObserveScan::constant_in(const SampleBuffer& rows, std::size_t begin, std::size_t end,
+                                          std::vector<int> inputs, const FirstValues& first) const {
   InputBlock block;
   RecordView view = view_.only(inputs);
-  for (std::size_t i = 0; i < rows.sample_count() && !inputs.empty(); i += block_records) {
-    const std::size_t count = std::min(block_records, rows.sample_count() - i);
-    view.read(rows.record(i), count, found_.positions, block);
-    const bool are_first = !std::exchange(first.are_known, true);
-    for (const int input : inputs)
-      if (are_first) first.values[input] = block.values[input][0];
+  ColumnBlock records = view.block();
+  for (std::size_t i = begin; i < end && !inputs.empty(); i += block_records) {
+    const std::size_t count = std::min(block_records, end - i);
+    records.take(rows.record(i), count);
+    view.read(records, found_.positions, block);
     const auto varies = [&](int input) {
       const float* values = block.values[input];
       return std::any_of(values, values + count, [&](float value) { return value != first.values[input]; });
@@ -92,7 +130,9 @@ void ObserveScan::leave_constant(const SampleBuffer& rows, std::vector<int>& inp
     if (varying == inputs.end()) continue;
     inputs.erase(varying, inputs.end());
     view = view_.only(inputs);
+    records = view.block();
   }
+  return inputs;
 }
 
 /// The power of two that exposes the frame: of the mean luminance, without what is far above the median. Over all

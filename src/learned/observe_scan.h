@@ -50,17 +50,21 @@ class ObserveScan {
 
   /// Of a pixel with the samples begin .. end - 1 of the rows.
   void include_luminance(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin, std::uint32_t end);
-  void include_position(const SampleBuffer& rows, std::uint32_t begin, std::uint32_t end);
+  void include_position(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin, std::uint32_t end);
   /// Leaves in `inputs` those that are for all samples what they are for the first of all.
   void leave_constant(const SampleBuffer& rows, std::vector<int>& inputs, FirstValues& first) const;
+  /// The same of the samples begin .. end - 1, where it is known what the first of all has.
+  std::vector<int> constant_in(const SampleBuffer& rows, std::size_t begin, std::size_t end, std::vector<int> inputs,
+                               const FirstValues& first) const;
   float exposure() const;
 
   Method method_;
+  int threads_;
   CleanFrame clean_;
   Cleaning cleaning_;
   RecordView view_;
   std::vector<double> luminances_;   ///< [pixel] in radiance as it is
-  std::vector<float> positions_[3];  ///< of each component
+  std::vector<float> positions_[3];  ///< [pixel] of each component; NaN where there is none
   float largest_weight_ = 0;
   std::vector<int> plain_, relative_;  ///< inputs that did not vary so far; relative: to where the positions lie
   FirstValues first_plain_, first_relative_;

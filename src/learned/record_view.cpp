@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 #include "learned/observe_scan.h"
 
@@ -32,32 +34,47 @@ constexpr NamedInput named_inputs[] = {
 
 using Three = std::array<std::size_t, 3>;
 
-// Written out: as algorithms of the standard library they are calls, a few for each sample.
-bool is_there(const float* record, const Three& columns) {
-  return !std::isnan(record[columns[0]]) && !std::isnan(record[columns[1]]) && !std::isnan(record[columns[2]]);
+// What follows is without branches, so that compilers make vectors of it.
+
+bool is_there(float x, float y, float z) {
+  return !(static_cast<unsigned>(std::isnan(x)) | std::isnan(y) | std::isnan(z));
 }
 
-bool is_zero(const float* record, const Three& columns) {
-  return record[columns[0]] == 0 && record[columns[1]] == 0 && record[columns[2]] == 0;
+/// A vector that is neither missing nor 0: of a hit.
+bool is_direction(float x, float y, float z) {
+  return static_cast<unsigned>(is_there(x, y, z)) & static_cast<unsigned>(!((x == 0) & (y == 0) & (z == 0)));
 }
+
+bool is_marked_hit(float hit) { return static_cast<unsigned>(hit != 0) & static_cast<unsigned>(!std::isnan(hit)); }
 
 float or_zero(float value) { return std::isnan(value) ? 0.0F : value; }
 
 /// std::floor() without the call that it is on processors before SSE4.1.
 float floor_of(float value) {
   constexpr float all_whole = 1 << 23;  // from here on
-  if (!(std::fabs(value) < all_whole)) return value;
-  const auto whole = static_cast<float>(static_cast<int>(value));
-  return whole > value ? whole - 1 : whole;
+  const bool is_small = std::fabs(value) < all_whole;
+  const auto cut = static_cast<float>(static_cast<int>(is_small ? value : 0.0F));
+  const float whole = cut - (cut > value ? 1.0F : 0.0F);
+  return is_small ? whole : value;
 }
 
 /// 2u - 1 of a number in [0, 1); 0 where it is missing.
-float centered(float u) { return std::isnan(u) ? 0.0F : rpf_held(2 * u - 1, -1, 1); }
+float centered(float u) {
+  const float held = rpf_held(2 * u - 1, -1, 1);
+  return std::isnan(u) ? 0.0F : held;
+}
 
-/// One input of `count` records from a column of theirs: make(value, number of the record).
+/// One input from a column: make(value, number of the record), also where there is no record.
 template <typename Make>
-void read_column(const float* column, std::size_t stride, std::size_t count, float* input, const Make& make) {
-  for (std::size_t i = 0; i < count; ++i) input[i] = make(column[i * stride], i);
+void read_column(const float* column, float* input, const Make& make) {
+  for (std::size_t i = 0; i < block_records; ++i) input[i] = make(column[i], i);
+}
+
+/// test(x, y, z) of three columns.
+template <typename Test>
+void test_columns(const ColumnBlock& records, const Three& columns, BlockMask& results, const Test& test) {
+  const float *x = records[columns[0]], *y = records[columns[1]], *z = records[columns[2]];
+  for (std::size_t i = 0; i < block_records; ++i) results[i] = test(x[i], y[i], z[i]) ? 1 : 0;
 }
 
 /// The columns of a group's components.
@@ -129,16 +146,12 @@ bool RecordView::has(int input) const {
 }
 
 bool RecordView::is_hit(const float* record) const {
-  if (hit_) return record[*hit_] != 0 && !std::isnan(record[*hit_]);
-  return !normal_ || (is_there(record, *normal_) && !is_zero(record, *normal_));
-}
-
-bool RecordView::is_second_hit(const float* record) const {
-  return is_there(record, *normal2_) && !is_zero(record, *normal2_);
+  if (hit_) return is_marked_hit(record[*hit_]);
+  return !normal_ || is_direction(record[(*normal_)[0]], record[(*normal_)[1]], record[(*normal_)[2]]);
 }
 
 bool RecordView::has_position(const float* record) const {
-  return position_ && is_hit(record) && is_there(record, *position_);
+  return position_ && is_hit(record) && is_there(position(record, 0), position(record, 1), position(record, 2));
 }
 
 bool RecordView::any_hit(const SampleBuffer& samples) const {
@@ -147,62 +160,94 @@ bool RecordView::any_hit(const SampleBuffer& samples) const {
   return false;
 }
 
-void RecordView::read_first_hits(const float* records, std::size_t count, const bool* hits,
-                                 const PositionFacts& positions, InputBlock& block) const {
-  for (std::size_t i = 0; i < count; ++i) block.values[RPF_INPUT_MISS][i] = hits[i] ? 0.0F : 1.0F;
+ColumnBlock RecordView::block(std::vector<std::size_t> others) const {
+  std::vector<std::size_t> columns = std::move(others);
+  const auto add = [&](bool is_read, const Columns& group) {
+    if (is_read) columns.insert(columns.end(), group->begin(), group->end());
+  };
+  if (hit_) columns.push_back(*hit_);
+  add(reads_.normal || (!hit_ && normal_), normal_);
+  add(reads_.albedo, albedo_);
+  add(reads_.position || reads_.second_distance, position_);
+  add(reads_.second_hit, normal2_);
+  add(reads_.second_distance, position2_);
+  for (const Number& n : numbers_) columns.push_back(n.column);
+  return {columns, stride_};
+}
+
+void RecordView::find_hits(const ColumnBlock& records, BlockMask& hits) const {
+  if (hit_) {
+    const float* hit = records[*hit_];
+    for (std::size_t i = 0; i < block_records; ++i) hits[i] = is_marked_hit(hit[i]) ? 1 : 0;
+  } else if (normal_) {
+    test_columns(records, *normal_, hits, is_direction);
+  } else {
+    std::fill(std::begin(hits), std::end(hits), 1);
+  }
+}
+
+void RecordView::read_first_hits(const ColumnBlock& records, const BlockMask& hits, const PositionFacts& positions,
+                                 InputBlock& inputs) const {
+  for (std::size_t i = 0; i < block_records; ++i) inputs.values[RPF_INPUT_MISS][i] = hits[i] != 0 ? 0.0F : 1.0F;
   const auto read = [&](const Three& columns, int input, float least, float most) {
     for (std::size_t k = 0; k < 3; ++k)
-      read_column(records + columns[k], stride_, count, block.values[static_cast<std::size_t>(input) + k],
-                  [&](float value, std::size_t i) { return hits[i] ? rpf_held(or_zero(value), least, most) : 0.0F; });
+      read_column(records[columns[k]], inputs.values[static_cast<std::size_t>(input) + k],
+                  [&hits, least, most](float value, std::size_t i) {
+                    const float held = rpf_held(or_zero(value), least, most);
+                    return hits[i] != 0 ? held : 0.0F;
+                  });
   };
   if (reads_.normal) read(*normal_, RPF_INPUT_NORMAL, -longest_normal, longest_normal);
   if (reads_.albedo) read(*albedo_, RPF_INPUT_ALBEDO, 0, 1);
   for (std::size_t k = 0; reads_.position && k < 3; ++k)
-    read_column(records + (*position_)[k], stride_, count, block.values[RPF_INPUT_POSITION + k],
-                [&, median = positions.median[k]](float value, std::size_t i) {
-                  const double off = hits[i] ? value - median : 0;
-                  return rpf_held(or_zero(static_cast<float>(off / positions.deviation)), -farthest_position,
-                                  farthest_position);
+    read_column(records[(*position_)[k]], inputs.values[RPF_INPUT_POSITION + k],
+                [&hits, median = positions.median[k], deviation = positions.deviation](float value, std::size_t i) {
+                  const auto off = static_cast<float>((value - median) / deviation);
+                  const float held = rpf_held(or_zero(off), -farthest_position, farthest_position);
+                  return hits[i] != 0 ? held : 0.0F;
                 });
 }
 
-float RecordView::second_distance(const float* record, const PositionFacts& positions) const {
-  if (!is_there(record, *position_) || !is_there(record, *position2_)) return 0;
+float RecordView::second_distance(const ColumnBlock& records, std::size_t i, const PositionFacts& positions) const {
   double square = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double d = static_cast<double>(record[(*position2_)[k]]) - record[(*position_)[k]];
+    const double d = static_cast<double>(records[(*position2_)[k]][i]) - records[(*position_)[k]][i];
     square += d * d;
   }
+  if (std::isnan(square)) return 0;  // one of them is missing
   const auto distance = static_cast<float>(std::sqrt(square) / positions.deviation);
   return kernel::rpf_log(1 + 4 * rpf_held(distance, 0, farthest_second_hit));
 }
 
-void RecordView::read_second_hits(const float* records, std::size_t count, const bool* hits,
-                                  const PositionFacts& positions, InputBlock& block) const {
-  bool again[block_records];
-  for (std::size_t i = 0; i < count; ++i) {
-    again[i] = hits[i] && is_second_hit(records + i * stride_);
-    block.values[RPF_INPUT_HIT2][i] = again[i] ? 1.0F : 0.0F;
-  }
+void RecordView::read_second_hits(const ColumnBlock& records, const BlockMask& hits, const PositionFacts& positions,
+                                  InputBlock& inputs) const {
+  BlockMask again;
+  test_columns(records, *normal2_, again, is_direction);
+  for (std::size_t i = 0; i < block_records; ++i) again[i] &= hits[i];
+  for (std::size_t i = 0; i < block_records; ++i) inputs.values[RPF_INPUT_HIT2][i] = again[i] != 0 ? 1.0F : 0.0F;
   for (std::size_t k = 0; k < 3; ++k)
-    read_column(
-        records + (*normal2_)[k], stride_, count, block.values[RPF_INPUT_NORMAL2 + k],
-        [&](float value, std::size_t i) { return again[i] ? rpf_held(value, -longest_normal, longest_normal) : 0.0F; });
-  for (std::size_t i = 0; reads_.second_distance && i < count; ++i)
-    block.values[RPF_INPUT_DISTANCE2][i] = again[i] ? second_distance(records + i * stride_, positions) : 0;
+    read_column(records[(*normal2_)[k]], inputs.values[RPF_INPUT_NORMAL2 + k], [&again](float value, std::size_t i) {
+      const float held = rpf_held(value, -longest_normal, longest_normal);
+      return again[i] != 0 ? held : 0.0F;
+    });
+  for (std::size_t i = 0; reads_.second_distance && i < records.count(); ++i)
+    inputs.values[RPF_INPUT_DISTANCE2][i] = again[i] != 0 ? second_distance(records, i, positions) : 0;
 }
 
-void RecordView::read(const float* records, std::size_t count, const PositionFacts& positions,
-                      InputBlock& block) const {
-  bool hits[block_records];
-  for (std::size_t i = 0; i < count; ++i) hits[i] = is_hit(records + i * stride_);
-  read_first_hits(records, count, hits, positions, block);
-  if (reads_.second_hit) read_second_hits(records, count, hits, positions, block);
-  for (const Number& n : numbers_)
-    read_column(records + n.column, stride_, count, block.values[n.input], [&](float value, std::size_t /*i*/) {
-      const float u = value - n.origin;
-      return centered(n.is_film ? u - floor_of(u) : u);
-    });
+void RecordView::read(const ColumnBlock& records, const PositionFacts& positions, InputBlock& inputs) const {
+  BlockMask hits;
+  find_hits(records, hits);
+  read_first_hits(records, hits, positions, inputs);
+  if (reads_.second_hit) read_second_hits(records, hits, positions, inputs);
+  for (const Number& n : numbers_) {
+    float* input = inputs.values[n.input];
+    if (n.is_film)
+      read_column(records[n.column], input, [origin = n.origin](float value, std::size_t /*i*/) {
+        return centered(value - origin - floor_of(value - origin));
+      });
+    else
+      read_column(records[n.column], input, [](float value, std::size_t /*i*/) { return centered(value); });
+  }
 }
 
 }  // namespace rpf

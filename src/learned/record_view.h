@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "frame/clean_frame.h"
-#include "frame/repack.h"
+#include "frame/column_block.h"
 #include "rpf_network.h"
 
 namespace rpf {
@@ -31,8 +31,10 @@ class RecordView {
   bool any_hit(const SampleBuffer& samples) const;
   /// The same, that reads no other inputs than these, or others of their groups.
   RecordView only(const std::vector<int>& inputs) const;
-  /// The inputs from RPF_INPUT_NORMAL on that there are, of `count` records; the others are left as they are.
-  void read(const float* records, std::size_t count, const PositionFacts& positions, InputBlock& block) const;
+  /// For read(): of the columns that the inputs are made of, and of others.
+  ColumnBlock block(std::vector<std::size_t> others = {}) const;
+  /// The inputs from RPF_INPUT_NORMAL on that there are; the others are left as they are.
+  void read(const ColumnBlock& records, const PositionFacts& positions, InputBlock& inputs) const;
 
  private:
   using Columns = std::optional<std::array<std::size_t, 3>>;  ///< of a group, where all three are there
@@ -52,12 +54,12 @@ class RecordView {
 
   Reads reads_of(const std::vector<int>& inputs) const;
   bool is_hit(const float* record) const;
-  bool is_second_hit(const float* record) const;  ///< of a sample that is a hit
-  void read_first_hits(const float* records, std::size_t count, const bool* hits, const PositionFacts& positions,
-                       InputBlock& block) const;
-  void read_second_hits(const float* records, std::size_t count, const bool* hits, const PositionFacts& positions,
-                        InputBlock& block) const;
-  float second_distance(const float* record, const PositionFacts& positions) const;
+  void find_hits(const ColumnBlock& records, BlockMask& hits) const;
+  void read_first_hits(const ColumnBlock& records, const BlockMask& hits, const PositionFacts& positions,
+                       InputBlock& inputs) const;
+  void read_second_hits(const ColumnBlock& records, const BlockMask& hits, const PositionFacts& positions,
+                        InputBlock& inputs) const;
+  float second_distance(const ColumnBlock& records, std::size_t i, const PositionFacts& positions) const;
 
   std::size_t stride_ = 0;  ///< values of a record
   Columns normal_, albedo_, position_, normal2_, position2_;

@@ -5,9 +5,9 @@
 
 #include "cpu/cpu_backend.h"
 #include "opencl/opencl_backend.h"
+#include "parallel/thread_count.h"
 #include "rpf/error.h"
 #include "rpf/filter.h"
-#include "run/threads.h"
 
 namespace rpf {
 namespace {

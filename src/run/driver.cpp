@@ -7,6 +7,7 @@
 #include "frame/resolve.h"
 #include "learned/network_file.h"
 #include "learned/observe.h"
+#include "parallel/thread_count.h"
 #include "rpf/methods.h"
 #include "run/backends.h"
 #include "run/error_estimate.h"
@@ -20,7 +21,6 @@
 #include "run/row_window.h"
 #include "run/streamed_frame.h"
 #include "run/streamed_passes.h"
-#include "run/threads.h"
 #include "run/tiles.h"
 
 namespace rpf {
@@ -72,7 +72,7 @@ class Run {
     backend_ = make_backend(settings);
     if (const auto* observed = std::get_if<ObservedFindings>(&facts)) {
       take(observe_frame(frame, *observed, settings, find_network(settings.model)));
-      clean_again(rows, find_columns(frame, settings.clamp_infinite), settings.clamp_negative);
+      clean_again(rows, find_columns(frame, settings.clamp_infinite), settings);
       const Window window = rows.data_window;
       prepared_.frame.first_sample =
           first_sample_in_frame(observe_rows(std::move(rows), frame, *observed, settings, estimate_plan_, prepared_),

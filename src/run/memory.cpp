@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "frame/selection.h"
+#include "parallel/thread_count.h"
 #include "plan/sample_tree.h"
 #include "plan/view_cells.h"
 #include "rpf/error.h"
@@ -15,7 +16,6 @@
 #include "run/backends.h"
 #include "run/estimate_bands.h"
 #include "run/streamed_frame.h"
-#include "run/threads.h"
 #include "seam/backend.h"
 
 namespace rpf {

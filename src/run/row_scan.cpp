@@ -75,7 +75,7 @@ ObservedFindings find_observed(SampleRows& rows, const Settings& settings, Progr
   if (!scan.finish()) std::fill(first_sample.begin(), first_sample.end(), 0U);
   const Columns columns = find_columns(rows.frame(), settings.clamp_infinite);
   const auto look_again = [&](SampleBuffer& part) {
-    clean_again(part, columns, settings.clamp_negative);
+    clean_again(part, columns, settings);
     scan.look_again(part);
     return scan.must_look_again();
   };
@@ -105,7 +105,7 @@ std::vector<std::string> find_uninformative(SampleRows& rows, const Settings& se
   const int height = rows.frame().data_window.height;
   check_rows(rows, 0, height, found.cleaned.most_samples, settings);
   SampleBuffer all = rows.read(0, height);
-  clean_again(all, find_columns(rows.frame(), settings.clamp_infinite), settings.clamp_negative);
+  clean_again(all, find_columns(rows.frame(), settings.clamp_infinite), settings);
   PreparedFrame prepared = prepare_rows(std::move(all), rows.frame(), found, settings);
   drop_uninformative(prepared, settings);
   return prepared.uninformative;
@@ -158,7 +158,7 @@ void count_rows(SampleRows& rows, const RowWalk& walk, const CleanReport& cleane
     if (end == 0) first = row;
     end = next;
     SampleBuffer part = rows.read(row, next);
-    clean_again(part, columns, settings.clamp_negative);
+    clean_again(part, columns, settings);
     count(part, counted);
     keeper.offer(part);
   }

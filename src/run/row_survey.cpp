@@ -41,7 +41,7 @@ RowSurvey survey_rows(SampleRows& rows) {
     const SampleBuffer part = rows.read(row, end);
     const std::size_t first = first_pixel(part.data_window, frame.data_window);
     for (std::size_t place = 0; place + 1 < part.first_sample.size(); ++place)
-      conventions.add(part, place, first + place);
+      conventions.add_all(part, place, first + place);
     const std::vector<ChannelSurvey> found = survey(part);
     for (std::size_t c = 0; c < found.size(); ++c) {
       include(result.channels[c], found[c], any_finite[c] == 0, part.sample_count(), static_cast<std::int64_t>(first));

@@ -21,7 +21,7 @@ void forget_values(std::vector<float>& values, std::size_t count) {
 
 PreparedFrame prepare_again(SampleBuffer rows, const SampleBuffer& frame, const FrameFindings& found,
                             const Settings& settings) {
-  clean_again(rows, find_columns(frame, settings.clamp_infinite), settings.clamp_negative);
+  clean_again(rows, find_columns(frame, settings.clamp_infinite), settings);
   PreparedFrame prepared = prepare_rows(std::move(rows), frame, found, settings);
   drop_channels(prepared, found.uninformative);
   return prepared;

@@ -102,7 +102,7 @@ SampleBuffer StreamedFrame::cleaned_rows(Block& block) {
   if (!block.cleaned.values.empty()) return std::exchange(block.cleaned, {});
   make_room();
   SampleBuffer samples = rows_.read(block.first, block.end);
-  clean_again(samples, find_columns(rows_.frame(), settings_.clamp_infinite), settings_.clamp_negative);
+  clean_again(samples, find_columns(rows_.frame(), settings_.clamp_infinite), settings_);
   return samples;
 }
 

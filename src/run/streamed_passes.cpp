@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "frame/resolve.h"
+#include "parallel/thread_count.h"
 #include "run/backends.h"
-#include "run/threads.h"
 #include "run/tiles.h"
 
 namespace rpf {

@@ -1,5 +1,3 @@
-#include "run/threads.h"
-
 #include <sched.h>
 
 #include <algorithm>
@@ -14,7 +12,5 @@ int available_threads() {
   const int cores = sched_getaffinity(0, sizeof mask, &mask) == 0 ? CPU_COUNT(&mask) : 1;
   return std::clamp(cores, 1, control_group_threads("/"));
 }
-
-int thread_count(const Settings& settings) { return settings.threads > 0 ? settings.threads : available_threads(); }
 
 }  // namespace rpf

@@ -10,6 +10,7 @@ NUMERIC, ELEMENTWISE, MATH = "kernels/numeric.h", "kernels/elementwise.h", "kern
 NEIGHBORHOOD, STATISTICS = "src/cpu/neighborhood.cpp", "src/cpu/statistics.cpp"
 WEIGHTING, BACKEND = "src/cpu/weighting.cpp", "src/cpu/cpu_backend.cpp"
 PLAN, TABLES, CLEAN, CLEAN_FRAME = "src/plan/plan.cpp", "src/plan/tables.cpp", "src/frame/clean.cpp", "src/frame/clean_frame.cpp"
+GLANCE, SAMPLE_CLEANER = "src/frame/glance.cpp", "src/frame/sample_cleaner.cpp"
 SIZE, REGIONS, RANGES = "src/plan/neighborhood_size.cpp", "src/plan/regions.cpp", "include/rpf/ranges.h"
 FRAME_SCAN, OBSERVE_SCAN, ROWS = "src/frame/frame_scan.cpp", "src/learned/observe_scan.cpp", "src/run/rows.cpp"
 PREPARE, RESOLVE = "src/frame/prepare.cpp", "src/frame/resolve.cpp"
@@ -49,7 +50,7 @@ MUTANTS = [
            "Contraction.IsOffWhereTheKernelsAreCompiled", "a * b + c in one rounding"),
 
     # ---------------------------------------------------------------- 1. input
-    Mutant("nan_sample_kept", CLEAN, "return std::isfinite(record[c]); };", "return !std::isinf(record[c]); };",
+    Mutant("nan_sample_kept", SAMPLE_CLEANER, "return std::isfinite(record[c]); };", "return !std::isinf(record[c]); };",
            BOTH + "LeavesOutSamplesThatAreNotFinite/*", "input: a NaN color is used"),
     Mutant("constant_channel_kept", FRAME_SCAN, "if (!channel.varies || ", "if (",
            "oracle spp1_paper variables", "input: constant channels are modeled"),
@@ -340,10 +341,25 @@ MUTANTS = [
            "BenchPlan.KeysTellMeasurementsApart", "sweep: a setting is known by its label"),
 
     # ---------------------------------------------------------------- extremes: the properties of docs/stability.md
-    Mutant("gaps_second", CLEAN, "(!gaps.any_second || gaps.all_second)", "true", "Clean.CountsWhatIsMissing*", "half a second hit is none"),
-    Mutant("gaps_hit", CLEAN, "gaps.all_first && (!columns.hit || record[*columns.hit] == 0)", "gaps.all_first",
-           "Clean.CountsWhatIsMissing*", "a hit without features is none"),
-    Mutant("extremes_alpha_uncounted", CLEAN, "findings.alpha.add(pixel);", "findings.negative.add(pixel);",
+    Mutant("glance_second", GLANCE, "find_partial(columns_.second_hit, may_lack_second, result);", "",
+           "Glance.FindsTheSamplesThatAreNotClean:Clean.CountsWhatIsMissing*", "half a second hit is none"),
+    Mutant("glance_hit", GLANCE, "hit == nullptr || hit[i] == 0 ? ~0 : 0", "~0",
+           "Glance.FindsTheSamplesThatAreNotClean:Clean.CountsWhatIsMissing*", "a hit without features is none"),
+    Mutant("glance_marked", GLANCE, "result[i] |= gap & (bits ^ bits_of(missing));", "",
+           "Glance.FindsTheSamplesThatAreNotClean", "what is infinite stays so"),
+    Mutant("glance_last_block", GLANCE, "if (count > 0) flush();", "",
+           "Glance.*", "the samples of the last block are not looked at"),
+    Mutant("glance_brightest", GLANCE, "left_out[i] != 0 ? 0 : bits_of", "bits_of",
+           "Glance.FindsTheSamplesThatAreNotClean", "what is left out counts as brightest"),
+    Mutant("glance_normals", "src/frame/surface_conventions.cpp", "(static_cast<std::int32_t>(square < least) & any) |", "",
+           "Glance.MissesNothingThatContradictsAConvention", "short normals pass"),
+    Mutant("glance_film", "src/frame/film_conventions.cpp", "static_cast<std::int32_t>(values[i] < corners[i]) |", "",
+           "Glance.MissesNothingThatContradictsAConvention", "film positions left of their pixel pass"),
+    Mutant("repack_waits", "src/frame/repack.cpp", "while (!taken_[piece].load(std::memory_order_acquire))", "while (false)",
+           "Repack.WaitsForWhatIsStillToBeRead", "a record is written over one that is still to be read"),
+    Mutant("conventions_join", "src/frame/tally.h", "if (count == 0) first_pixel = later.first_pixel;", "",
+           "Glance.MissesNothingThatContradictsAConvention", "what the second thread found is told of the first pixel"),
+    Mutant("extremes_alpha_uncounted", SAMPLE_CLEANER, "findings_.alpha.add(pixel);", "findings_.negative.add(pixel);",
            "extremes BadAlpha.IsZeroAndCounted", "input: a bad alpha counts as negative radiance"),
     Mutant("extremes_empty_uncounted", CLEAN, "findings.empty.add(first + place);", "findings.empty.add(0);",
            "extremes Counts.OfZeroAreBlackToldAndHarmless", "input: another pixel without samples"),
