@@ -358,7 +358,7 @@ MUTANTS = [
     Mutant("repack_waits", "src/frame/repack.cpp", "while (!taken_[piece].load(std::memory_order_acquire))", "while (false)",
            "Repack.WaitsForWhatIsStillToBeRead", "a record is written over one that is still to be read"),
     Mutant("conventions_join", "src/frame/tally.h", "if (count == 0) first_pixel = later.first_pixel;", "",
-           "Glance.MissesNothingThatContradictsAConvention", "what the second thread found is told of the first pixel"),
+           "Glance.TellsTheFirstPixelWhicheverThreadFindsIt", "what the second thread found is told of the first pixel"),
     Mutant("extremes_alpha_uncounted", SAMPLE_CLEANER, "findings_.alpha.add(pixel);", "findings_.negative.add(pixel);",
            "extremes BadAlpha.IsZeroAndCounted", "input: a bad alpha counts as negative radiance"),
     Mutant("extremes_empty_uncounted", CLEAN, "findings.empty.add(first + place);", "findings.empty.add(0);",

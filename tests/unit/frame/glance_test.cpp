@@ -33,6 +33,13 @@ SampleBuffer odd_frame(std::uint32_t seed) {
   if (seed % 3 == 0) frame.data_window.x = -3, frame.data_window.y = 7;
   test::Dice dice(seed);
   const auto one_of = [&](std::size_t n) { return static_cast<std::size_t>(dice() * static_cast<float>(n)); };
+  for (std::size_t i = 0; i < frame.sample_count(); i += 2)  // as renderers write what nothing was hit by
+    for (std::size_t c = 0; c < frame.layout.size(); ++c) {
+      const std::string& slot = frame.layout.slots[c];
+      const bool second = is_feature_slot(slot) && (group_of(slot) == "N2" || group_of(slot) == "P2");
+      if (second || (i % 6 == 0 && is_feature_slot(slot))) frame.record(i)[c] = nan;
+      if (i % 6 == 0 && slot == "feature.hit") frame.record(i)[c] = 0;
+    }
   for (float& value : frame.values)
     if (one_of(50) == 0) value = odd_values[one_of(std::size(odd_values))];
   return frame;
@@ -102,6 +109,28 @@ TEST(Glance, MissesNothingThatContradictsAConvention) {
     }
   }
   EXPECT_GT(told, 4 * frames) << "film, random numbers, normals and albedo of nearly every frame";
+}
+
+/// Of more pixels than a thread looks at, the last three of which hold copies of one sample.
+TEST(Glance, TellsTheFirstPixelWhicheverThreadFindsIt) {
+  constexpr int width = 64, height = 32, samples = 5;
+  SampleBuffer frame = test::every_input({width, height, samples, 3});
+  for (std::size_t i = frame.sample_count() - 3 * samples; i < frame.sample_count(); ++i)
+    std::copy_n(frame.record(i / samples * samples), frame.layout.size(), frame.record(i));
+  const Columns columns = find_columns(frame, false);
+  const SampleBuffer whole = frame;
+  Settings settings = test::small_settings();
+  settings.threads = 3;
+  Cleaning cleaning(whole, columns, settings);
+  cleaning.add(frame);
+  const std::vector<InputNote> notes = cleaning.report().notes;
+  const auto copies = std::find_if(notes.begin(), notes.end(), [](const InputNote& note) {
+    return note.what.find("whose samples are all the same") != std::string::npos;
+  });
+  ASSERT_NE(copies, notes.end());
+  EXPECT_EQ(copies->count, 3U);
+  EXPECT_EQ(copies->x, whole.data_window.x + width - 3);
+  EXPECT_EQ(copies->y, whole.data_window.y + height - 1);
 }
 
 }  // namespace
