@@ -49,8 +49,7 @@ struct SampleReadOptions {
   std::optional<std::vector<std::string>> slots;
   /// Bytes this read may allocate; 0: no limit. Checked before anything is allocated.
   std::uint64_t max_memory = 0;
-  /// Rows of an OpenEXR file are unpacked on so many threads, at least 1. Never changes the result.
-  int threads = 1;
+  int threads = 0;  ///< that unpack rows of an OpenEXR file; 0: available_threads(). Never changes the result.
 };
 
 /// Whether a file begins as those with samples do. Throws Error(input) where it cannot be read.

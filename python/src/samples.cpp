@@ -14,7 +14,6 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "rpf/error.h"
-#include "rpf/filter.h"
 #include "rpf/io.h"
 
 namespace rpf::python {
@@ -101,7 +100,6 @@ Samples read(const std::filesystem::path& path, const std::optional<std::vector<
   SampleReadOptions options;
   options.slots = slots;
   options.max_memory = max_memory;
-  options.threads = available_threads();
   return {std::make_shared<SampleBuffer>(read_samples(path.string(), options))};
 }
 

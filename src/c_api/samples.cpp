@@ -41,7 +41,7 @@ rpf::SampleReadOptions options_for(const char* path, const rpf_settings* setting
   rpf::SampleReadOptions options;
   if (settings == nullptr) return options;
   options.max_memory = settings->value.max_memory;
-  options.threads = settings->value.threads > 0 ? settings->value.threads : rpf::available_threads();
+  options.threads = settings->value.threads;
   rpf::SampleLayout layout;
   for (const rpf::SampleFileChannel& channel : rpf::inspect_samples(path, options).channels)
     if (!channel.slot.empty()) layout.slots.push_back(channel.slot);

@@ -7,6 +7,7 @@
 #include "conformance/lockstep.h"
 #include "conformance/tolerances.h"
 #include "opencl/session.h"
+#include "parallel/thread_count.h"
 #include "rpf/error.h"
 #include "seam/backend.h"
 
@@ -50,7 +51,7 @@ ConformanceReport check_conformance(const ConformanceOptions& options) {
   const ConformanceTolerance tolerance = tolerance_of(report.device);
   report.tolerance = tolerance.ulp;
   report.tolerance_reason = tolerance.reason;
-  const int threads = options.threads > 0 ? options.threads : available_threads();
+  const int threads = thread_count(options.threads);
   for (const ConformanceCase& c : cases) {
     if (options.progress && !options.progress(report.cases.size(), cases.size(), c.name))
       throw Error(ErrorKind::cancelled, "cancelled");

@@ -68,12 +68,27 @@ std::vector<std::size_t> parts_of(const SampleBuffer& rows) {
   return ends;
 }
 
+/// Looks at all samples, part by part on so many threads, with copies of `glance`; `after` hears the number of each
+/// part and of its pixels. Returns the largest magnitude of the clean samples' colors.
+template <class After>
+float mark_all(const SampleBuffer& rows, const std::vector<std::size_t>& parts, const Glance& glance, int threads,
+               Marks& marks, const After& after) {
+  Workers workers(threads);
+  std::vector<Glance> glances(workers.count(), glance);
+  workers.for_all(1, parts.size(), [&](std::size_t n, std::size_t worker) {
+    glances[worker].look(rows, parts[n - 1], parts[n], marks.data());
+    after(n, parts[n - 1], parts[n]);
+  });
+  float brightest = 0;
+  for (const Glance& own : glances) brightest = std::max(brightest, own.brightest());
+  return brightest;
+}
+
 /// Cleans what is marked and moves all samples together. `before` hears of a pixel with marked samples, which are still
 /// as they were; `after` of every pixel, which samples it keeps.
 template <class Before, class After>
-void clean_marked(SampleBuffer& rows, std::size_t first, const Marks& marks, const Columns& columns,
-                  bool clamp_negative, CleanFindings& findings, const Before& before, const After& after) {
-  SampleCleaner cleaner(columns, clamp_negative, findings);
+void clean_marked(SampleBuffer& rows, std::size_t first, const Marks& marks, SampleCleaner cleaner,
+                  CleanFindings& findings, const Before& before, const After& after) {
   std::uint32_t kept = 0;
   for (std::size_t place = 0; place + 1 < rows.first_sample.size(); ++place) {
     const std::uint32_t begin = std::exchange(rows.first_sample[place], kept), end = rows.first_sample[place + 1];
@@ -137,7 +152,7 @@ void Cleaning::add(SampleBuffer& rows, const Seen& seen) {
   const std::size_t first = first_pixel(rows.data_window, frame_.data_window);
   const Marks marks = look(rows, first, seen);
   clean_marked(
-      rows, first, marks, columns_, clamp_negative_, findings_,
+      rows, first, marks, SampleCleaner(columns_, clamp_negative_, findings_), findings_,
       [&](std::size_t place, std::uint32_t begin, std::uint32_t end) {
         for (std::uint32_t i = begin; i < end; ++i)
           if ((marks[i] & odd) != 0) conventions_.add(rows.record(i), first + place);
@@ -156,24 +171,19 @@ void Cleaning::add(SampleBuffer& rows, const Seen& seen) {
 Marks Cleaning::look(const SampleBuffer& rows, std::size_t first, const Seen& seen) {
   const std::vector<std::size_t> parts = parts_of(rows);
   std::vector<Conventions::Found> found(parts.size());
-  std::vector<float> brightest(parts.size());
   Marks marks(rows.sample_count());
-  Workers(threads_).for_all(1, parts.size(), [&](std::size_t n, std::size_t /*worker*/) {
-    Glance glance(rows.layout, columns_, &conventions_);
-    glance.look(rows, parts[n - 1], parts[n], marks.data());
-    brightest[n] = glance.brightest();
-    for (std::size_t place = parts[n - 1]; place < parts[n]; ++place) {
+  const auto include_pixels = [&](std::size_t n, std::size_t place, std::size_t end_of_part) {
+    for (; place < end_of_part; ++place) {
       const std::uint32_t begin = rows.first_sample[place], end = rows.first_sample[place + 1];
       conventions_.look(rows, place, first + place, found[n]);
       if (is_any_marked(marks, begin, end)) continue;
       colors_[first + place] = color_of_samples(rows, columns_, begin, end);
       if (seen) seen(place, begin, end);
     }
-  });
-  for (std::size_t n = 1; n < parts.size(); ++n) {
-    conventions_.add(found[n]);
-    findings_.brightest = std::max(findings_.brightest, brightest[n]);
-  }
+  };
+  const Glance glance(rows.layout, columns_, &conventions_);
+  findings_.brightest = std::max(findings_.brightest, mark_all(rows, parts, glance, threads_, marks, include_pixels));
+  for (const Conventions::Found& of_part : found) conventions_.add(of_part);
   return marks;
 }
 
@@ -201,15 +211,13 @@ CleanReport Cleaning::report() {
 }
 
 void clean_again(SampleBuffer& rows, const Columns& columns, const Settings& settings) {
-  const std::vector<std::size_t> parts = parts_of(rows);
+  const auto ignore = [](auto... /*what was found before*/) {};
   Marks marks(rows.sample_count());
-  Workers(thread_count(settings)).for_all(1, parts.size(), [&](std::size_t n, std::size_t /*worker*/) {
-    Glance(rows.layout, columns, nullptr).look(rows, parts[n - 1], parts[n], marks.data());
-  });
+  mark_all(rows, parts_of(rows), Glance(rows.layout, columns, nullptr), thread_count(settings), marks, ignore);
   CleanFindings found_before;
   found_before.missing_columns.resize(rows.layout.size());
-  const auto ignore = [](auto... /*of a pixel*/) {};
-  clean_marked(rows, 0, marks, columns, settings.clamp_negative, found_before, ignore, ignore);
+  const SampleCleaner cleaner(columns, settings.clamp_negative, found_before);
+  clean_marked(rows, 0, marks, cleaner, found_before, ignore, ignore);
 }
 
 void fill_lost(SampleBuffer& rows, const Window& data_window, const Columns& columns, const CleanReport& report) {

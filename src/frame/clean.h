@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -22,6 +23,7 @@ constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 /// Larger feature values count as missing: their squares would not survive a sum, and renderers write such values for
 /// "no hit". Nor would sums of larger weights or alphas.
 constexpr float largest_value = 1e15F;
+inline bool is_missing(float value) { return !(std::fabs(value) <= largest_value); }
 
 /// Where the slots that preparing a frame needs stand in a record.
 struct Columns {

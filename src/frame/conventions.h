@@ -18,14 +18,17 @@ struct PixelCorners {
   float x[block_records], y[block_records];
 };
 
-/// A check of single samples.
-class SampleCheck {
+class ConventionCheck {
  public:
-  SampleCheck() = default;
-  virtual ~SampleCheck() = default;
-  SampleCheck(const SampleCheck&) = delete;
-  SampleCheck& operator=(const SampleCheck&) = delete;
+  ConventionCheck() = default;
+  virtual ~ConventionCheck() = default;
+  ConventionCheck(const ConventionCheck&) = delete;
+  ConventionCheck& operator=(const ConventionCheck&) = delete;
+};
 
+/// A check of single samples.
+class SampleCheck : public ConventionCheck {
+ public:
   /// Marks at least the records that contradict, many at a time: in doubt and near a limit others too.
   virtual void look(const ColumnBlock& records, const PixelCorners& corners, BlockMask& odd) const = 0;
   /// A sample that was marked, of a pixel by its number in the frame (row-major in its data window), in ascending
@@ -47,13 +50,8 @@ struct PixelFindings {
 };
 
 /// A check of samples together.
-class PixelCheck {
+class PixelCheck : public ConventionCheck {
  public:
-  PixelCheck() = default;
-  virtual ~PixelCheck() = default;
-  PixelCheck(const PixelCheck&) = delete;
-  PixelCheck& operator=(const PixelCheck&) = delete;
-
   /// The samples of a pixel, which has the number `place` in these rows and `pixel` in the frame; in ascending order.
   virtual void look(const SampleBuffer& rows, std::size_t place, std::size_t pixel, PixelFindings& found) const = 0;
   virtual void tell(const PixelFindings& found, const Window& data_window, std::vector<InputNote>& notes) const = 0;

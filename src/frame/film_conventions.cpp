@@ -25,8 +25,8 @@ class FilmCheck : public SampleCheck {
   }
 
   void look(const ColumnBlock& records, const PixelCorners& corners, BlockMask& odd) const override {
-    mark_outside(records[columns_[0]], corners.x, odd);
-    mark_outside(records[columns_[1]], corners.y, odd);
+    mark_outside_pixels(records[columns_[0]], corners.x, odd);
+    mark_outside_pixels(records[columns_[1]], corners.y, odd);
   }
 
   void add(const float* record, std::size_t pixel) override {
@@ -46,7 +46,7 @@ class FilmCheck : public SampleCheck {
 
  private:
   /// Without the slack, which floats would not hold.
-  static void mark_outside(const float* values, const float (&corners)[block_records], BlockMask& odd) {
+  static void mark_outside_pixels(const float* values, const float (&corners)[block_records], BlockMask& odd) {
     for (std::size_t i = 0; i < block_records; ++i)
       odd[i] |=
           static_cast<std::int32_t>(values[i] < corners[i]) | static_cast<std::int32_t>(values[i] > corners[i] + 1);

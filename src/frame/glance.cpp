@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <iterator>
-#include <limits>
 #include <numeric>
 
 namespace rpf {
@@ -22,9 +21,7 @@ std::int32_t bits_of(float value) {
 }
 
 /// All bits where a value is missing, else none.
-std::int32_t gap_of(std::int32_t bits) {
-  return (bits & std::numeric_limits<std::int32_t>::max()) > bits_of(largest_value) ? ~0 : 0;
-}
+std::int32_t gap_of(float value) { return is_missing(value) ? ~0 : 0; }
 
 }  // namespace
 
@@ -72,7 +69,7 @@ void Glance::look_at_block(const float* records, std::size_t count, const PixelC
 /// where what it lacks is marked as missing already: rays that hit nothing have no features.
 void Glance::find_unclean(BlockMask& result) const {
   for (const std::size_t c : always_)
-    for (std::size_t i = 0; i < block_records; ++i) result[i] |= gap_of(bits_of(block_[c][i]));
+    for (std::size_t i = 0; i < block_records; ++i) result[i] |= gap_of(block_[c][i]);
   const auto find_negative = [&](const float* values) {
     for (std::size_t i = 0; i < block_records; ++i) result[i] |= values[i] < 0 ? ~0 : 0;
   };
@@ -92,8 +89,8 @@ void Glance::find_partial(const std::vector<std::size_t>& hit, BlockMask& all, B
   for (const std::size_t c : hit) {
     const float* values = block_[c];
     for (std::size_t i = 0; i < block_records; ++i) {
-      const std::int32_t bits = bits_of(values[i]), gap = gap_of(bits);
-      result[i] |= gap & (bits ^ bits_of(missing));
+      const std::int32_t gap = gap_of(values[i]);
+      result[i] |= gap & (bits_of(values[i]) ^ bits_of(missing));
       any[i] |= gap;
       all[i] &= gap;
     }

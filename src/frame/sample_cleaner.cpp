@@ -7,8 +7,6 @@
 namespace rpf {
 namespace {
 
-bool is_missing(float value) { return !(std::fabs(value) <= largest_value); }
-
 /// A ray that hit nothing has no features, which is no fault: a sky.
 bool is_miss(const float* record, const Columns& columns) {
   if (columns.hit) return record[*columns.hit] == 0;
@@ -80,7 +78,7 @@ void SampleCleaner::clean(float* record, std::size_t pixel) {
     findings_.negative.add(pixel);
     if (clamp_negative_) record[c] = 0;
   }
-  if (columns_.alpha && !(std::fabs(record[*columns_.alpha]) <= largest_value)) {
+  if (columns_.alpha && is_missing(record[*columns_.alpha])) {
     findings_.alpha.add(pixel);
     record[*columns_.alpha] = 0;
   }

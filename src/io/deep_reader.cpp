@@ -17,6 +17,7 @@
 #include "io/reading.h"
 #include "io/spread.h"
 #include "io/unpack.h"
+#include "parallel/thread_count.h"
 #include "parallel/workers.h"
 #include "rpf/error.h"
 
@@ -66,7 +67,7 @@ CheckedFile check_file(const std::string& path, const SampleReadOptions& options
 /// Rows for each thread at the least: one of them is in memory three times more.
 constexpr int rows_of_reader = 16;
 
-int reader_count(int rows, int threads) { return std::clamp(rows / rows_of_reader, 1, std::max(threads, 1)); }
+int reader_count(int rows, int threads) { return std::clamp(rows / rows_of_reader, 1, thread_count(threads)); }
 
 // Tables of rows, and one row of each reader: packed, as differences, unpacked.
 std::uint64_t reader_bytes(const CheckedFile& file, int readers) {

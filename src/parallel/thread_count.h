@@ -6,9 +6,8 @@
 
 namespace rpf {
 
-/// The threads that the settings stand for: available_threads() where they do not say.
-inline int thread_count(const Settings& settings) {
-  return settings.threads > 0 ? settings.threads : available_threads();
-}
+/// What a wish for so many threads stands for: available_threads() for none.
+inline int thread_count(int wanted) { return wanted > 0 ? wanted : available_threads(); }
+inline int thread_count(const Settings& settings) { return thread_count(settings.threads); }
 
 }  // namespace rpf

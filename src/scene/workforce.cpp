@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "parallel/thread_count.h"
 #include "parallel/workers.h"
 #include "rpf/error.h"
 
@@ -33,7 +34,7 @@ class Meter {
 }  // namespace
 
 void for_all_pixels(const Work& work, const Control& control, const std::function<void(std::size_t)>& render) {
-  const int threads = work.threads > 0 ? work.threads : available_threads();
+  const int threads = thread_count(work.threads);
   const double pixels_a_piece = samples_a_piece * threads / std::max(work.samples_per_pixel, 1.0);
   const auto piece =
       std::max<std::size_t>(control.tile_pixels > 0 ? control.tile_pixels : static_cast<std::size_t>(pixels_a_piece),

@@ -24,7 +24,7 @@ ROOMS = {
     "src/probe": "src/opencl",        # a program: asks drivers in a process of its own
     "src/run": "src/parallel src/frame src/plan src/learned src/seam src/cpu src/opencl kernels",
     "src/explain": "src/parallel src/frame src/plan src/learned src/seam src/run kernels",
-    "src/conformance": "src/frame src/learned src/seam src/cpu src/opencl kernels",
+    "src/conformance": "src/parallel src/frame src/learned src/seam src/cpu src/opencl kernels",
     # beside the filter, sharing nothing with it but the public headers
     "src/io": "src/parts src/parallel",
     "src/images": "src/io",           # a library of its own; src/io loads it

@@ -345,7 +345,7 @@ MUTANTS = [
            "Glance.FindsTheSamplesThatAreNotClean:Clean.CountsWhatIsMissing*", "half a second hit is none"),
     Mutant("glance_hit", GLANCE, "hit == nullptr || hit[i] == 0 ? ~0 : 0", "~0",
            "Glance.FindsTheSamplesThatAreNotClean:Clean.CountsWhatIsMissing*", "a hit without features is none"),
-    Mutant("glance_marked", GLANCE, "result[i] |= gap & (bits ^ bits_of(missing));", "",
+    Mutant("glance_marked", GLANCE, "result[i] |= gap & (bits_of(values[i]) ^ bits_of(missing));", "",
            "Glance.FindsTheSamplesThatAreNotClean", "what is infinite stays so"),
     Mutant("glance_last_block", GLANCE, "if (count > 0) flush();", "",
            "Glance.*", "the samples of the last block are not looked at"),

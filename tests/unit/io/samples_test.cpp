@@ -222,6 +222,7 @@ TEST(Samples, TheMemoryBudgetIsCheckedBeforehand) {
   recipe.counts = [](int) { return 4U; };
   write_deep(folder.file("a.exr"), recipe);
   rpf::SampleReadOptions options;
+  options.threads = 1;                          // each needs room for a row
   options.max_memory = std::uint64_t{8} << 20;  // 300 * 300 * 4 samples of 24 bytes are 8.2 MB, and more is needed
   expect_error(error_of([&] { rpf::read_samples(folder.file("a.exr"), options); }), rpf::ErrorKind::memory,
                {"a.exr", "needs 9 MB", "limit is 8 MB", "--max-memory"});
