@@ -16,7 +16,7 @@ MOST_REPEATED = 32    # times
 def chosen_count(n, rng):
     """1 to all of n samples, 4 most often."""
     powers = [2 ** k for k in range(n.bit_length()) if 2 ** k <= n]
-    return 4 if rng.random() < (0.6 if n <= 8 else 0.45) else powers[int(rng.integers(len(powers)))]
+    return 4 if rng.random() < 0.6 else powers[int(rng.integers(len(powers)))]
 
 
 def part_shape(height, width, count):

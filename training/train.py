@@ -34,7 +34,7 @@ def loss_of(result, reference):
     """Relative squared error, bounded; relative error; and, because both favor the darker of two guesses, energy of blocks."""
     square = (result - reference).square() / (reference.square() + 0.01)
     relative = (result - reference).abs() / (result.abs() + reference.abs() + 0.02)
-    loss = (square / (1 + square / 2)).mean() + 0.4 * relative.mean()
+    loss = (square / (1 + square / 2)).mean() + 0.3 * relative.mean()
     for width, share in ((16, 0.25), (64, 0.4)):
         a, b = (F.avg_pool2d(x[None], min(width, *x.shape[1:]))[0] for x in (result, reference))
         loss = loss + share * ((a - b).abs() / (b + 0.05)).mean()

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "cli/dropped.h"
 #include "cli/feature_files.h"
@@ -111,6 +112,11 @@ std::vector<PlannedOutput> planned_outputs(const FilterOptions& options, const F
 void check_usage(const FilterOptions& options) {
   if (options.input.empty())
     throw Error(ErrorKind::usage, "no input: name a sample file, as in rpf render.samples.exr -o filtered.exr");
+  const bool is_word = options.input.find_first_of("/.") == std::string::npos;
+  if (options.output.empty() && is_word && !std::filesystem::exists(options.input))
+    throw Error(ErrorKind::usage, fmt::format("'{}' is no command and no file that is there; rpf --help lists the "
+                                              "commands",
+                                              options.input));
   if (options.output.empty() && !options.dry_run)
     throw Error(ErrorKind::usage, "no output: name the image to write with -o, as in -o filtered.exr");
 }

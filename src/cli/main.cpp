@@ -1,4 +1,6 @@
 
+#include <fmt/format.h>
+
 #include <csignal>
 #include <new>
 
@@ -37,6 +39,25 @@ constexpr const char* footer = R"(Examples:
 Exit codes: 0 ok, 1 internal, 2 usage, 3 input, 4 output, 5 device, 6 memory, 128 + signal when stopped;
 rpf compare --max-error: 1 when an image is above it.)";
 
+/// What stands before a command is read as the filter's, which does not run.
+void check_comes_first(const std::string& command, const std::string& first) {
+  if (first != command)
+    throw Error(ErrorKind::usage, fmt::format("{0}: the command comes first, but {1} stands before it; write rpf {0} "
+                                              "and then its options, which rpf {0} --help lists",
+                                              command, first));
+}
+
+/// An empty value is mostly a variable of a script that is not set; as if the option were missing, something else would
+/// be done than was asked for.
+void check_values(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& value : option->results())
+      if (value.empty() && option->nonpositional())
+        throw Error(ErrorKind::usage,
+                    fmt::format("{}: its value is empty; give one, or leave the option out", option->get_name()));
+  for (const CLI::App* command : app.get_subcommands()) check_values(*command);
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Random Parameter Filtering: removes the noise of lens, motion, soft shadow and gloss from Monte Carlo samples.",
@@ -61,8 +82,12 @@ int run(int argc, char** argv) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
     throw;
   }
+  check_values(app);
   for (const auto& [name, command] : subcommands)
-    if (app.got_subcommand(name)) return command();
+    if (app.got_subcommand(name)) {
+      check_comes_first(name, argv[1]);
+      return command();
+    }
   return filter_command();
 }
 

@@ -110,7 +110,7 @@ Command add_study_command(CLI::App& app) {
   command->add_flag("--quick", options->quick, "Smaller pictures and fewer points: under two minutes each");
   command
       ->add_option("--size", options->size,
-                   "Pixels of the scenes; 320x180, contemporaries and quick 192x108 if not given")
+                   "Pixels of the scenes; 320x180, contemporaries 160x90 and quick 192x108 if not given")
       ->type_name("WxH");
   command->add_option("--backend", options->backend, "As for filtering; changes the time, never a bit")
       ->check(CLI::IsMember(backend_names()))

@@ -47,6 +47,7 @@ std::vector<InputNote> notes_of(const CleanFindings& findings, const SampleBuffe
   tell(findings.no_weight, "samples left out: weight not a number from 0 to 1e15");
   tell(findings.lost, "pixels that lost all their samples, filled from their neighbors");
   tell(findings.empty, "pixels without samples, black");
+  tell(findings.weightless, "pixels whose samples all have weight 0");
   tell(findings.negative, clamp_negative ? "negative radiance values, set to 0" : "negative radiance values, kept");
   tell(findings.alpha, "values of alpha not finite or beyond 1e15, set to 0");
   tell(findings.missing, "samples with missing values of " + list_of(findings.missing_columns, samples.layout));
@@ -88,12 +89,12 @@ float mark_all(const SampleBuffer& rows, const std::vector<std::size_t>& parts, 
 /// as they were; `after` of every pixel, which samples it keeps.
 template <class Before, class After>
 void clean_marked(SampleBuffer& rows, std::size_t first, const Marks& marks, SampleCleaner cleaner,
-                  CleanFindings& findings, const Before& before, const After& after) {
+                  const Before& before, const After& after) {
   std::uint32_t kept = 0;
   for (std::size_t place = 0; place + 1 < rows.first_sample.size(); ++place) {
     const std::uint32_t begin = std::exchange(rows.first_sample[place], kept), end = rows.first_sample[place + 1];
     const bool is_marked = is_any_marked(marks, begin, end);
-    if (begin == end) findings.empty.add(first + place);
+    cleaner.count_pixel(rows, begin, end, first + place);
     if (is_marked) {
       before(place, begin, end);
       kept += cleaner.keep_samples(rows, begin, end, kept, marks, first + place);
@@ -152,7 +153,7 @@ void Cleaning::add(SampleBuffer& rows, const Seen& seen) {
   const std::size_t first = first_pixel(rows.data_window, frame_.data_window);
   const Marks marks = look(rows, first, seen);
   clean_marked(
-      rows, first, marks, SampleCleaner(columns_, clamp_negative_, findings_), findings_,
+      rows, first, marks, SampleCleaner(columns_, clamp_negative_, findings_),
       [&](std::size_t place, std::uint32_t begin, std::uint32_t end) {
         for (std::uint32_t i = begin; i < end; ++i)
           if ((marks[i] & odd) != 0) conventions_.add(rows.record(i), first + place);
@@ -216,8 +217,7 @@ void clean_again(SampleBuffer& rows, const Columns& columns, const Settings& set
   mark_all(rows, parts_of(rows), Glance(rows.layout, columns, nullptr), thread_count(settings), marks, ignore);
   CleanFindings found_before;
   found_before.missing_columns.resize(rows.layout.size());
-  const SampleCleaner cleaner(columns, settings.clamp_negative, found_before);
-  clean_marked(rows, 0, marks, cleaner, found_before, ignore, ignore);
+  clean_marked(rows, 0, marks, SampleCleaner(columns, settings.clamp_negative, found_before), ignore, ignore);
 }
 
 void fill_lost(SampleBuffer& rows, const Window& data_window, const Columns& columns, const CleanReport& report) {

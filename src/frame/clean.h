@@ -64,7 +64,7 @@ struct CleanReport {
 
 /// What was found so far.
 struct CleanFindings {
-  Tally infinite, not_finite, no_weight, negative, alpha, empty, lost;
+  Tally infinite, not_finite, no_weight, negative, alpha, empty, lost, weightless;
   Tally missing;                      ///< samples
   std::vector<char> missing_columns;  ///< [column] of these
   float brightest = 0;

@@ -36,6 +36,15 @@ std::uint32_t SampleCleaner::keep_samples(SampleBuffer& samples, std::uint32_t b
   return count;
 }
 
+void SampleCleaner::count_pixel(const SampleBuffer& samples, std::uint32_t begin, std::uint32_t end,
+                                std::size_t pixel) {
+  if (begin == end) findings_.empty.add(pixel);
+  if (begin == end || !columns_.weight) return;
+  std::uint32_t sample = begin;
+  while (sample < end && samples.record(sample)[*columns_.weight] == 0) ++sample;
+  if (sample == end) findings_.weightless.add(pixel);
+}
+
 bool SampleCleaner::clean_usable(float* record, std::size_t pixel) {
   take_infinite(record, pixel);
   if (!is_usable(record, pixel)) return false;

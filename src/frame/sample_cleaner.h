@@ -24,6 +24,9 @@ class SampleCleaner {
   std::uint32_t keep_samples(SampleBuffer& samples, std::uint32_t begin, std::uint32_t end, std::uint32_t kept,
                              const Marks& marks, std::size_t pixel);
 
+  /// Counts a pixel without samples, or whose samples, before they are cleaned, all weigh nothing.
+  void count_pixel(const SampleBuffer& samples, std::uint32_t begin, std::uint32_t end, std::size_t pixel);
+
  private:
   bool clean_usable(float* record, std::size_t pixel);  ///< false: it is to be left out
   void clean_lost(float* record, std::size_t pixel);

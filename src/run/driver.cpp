@@ -262,13 +262,15 @@ class Run {
     describe(result, pixels);
   }
 
+  /// Pixels without samples stay 0, whatever is around them.
   void place(const std::vector<float>& part, const Window& band, Pixels& pixels) const {
-    const std::size_t row = static_cast<std::size_t>(band.width) * prepared_.facts.carried;
-    for (int y = 0; y < band.height; ++y)
-      std::copy_n(part.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * row), row,
-                  pixels.begin() + static_cast<std::ptrdiff_t>(
-                                       (static_cast<std::size_t>(band.y + y) * prepared_.facts.width + band.x) *
-                                       prepared_.facts.carried));
+    const std::size_t carried = prepared_.facts.carried;
+    const float* from = part.data();
+    for (int y = band.y; y < band.y + band.height; ++y)
+      for (int x = band.x; x < band.x + band.width; ++x, from += carried) {
+        const std::size_t pixel = static_cast<std::size_t>(y) * prepared_.facts.width + x;
+        if (prepared_.frame.samples(pixel) > 0) std::copy_n(from, carried, pixels.data() + pixel * carried);
+      }
   }
 
   PassReport run_pass(int pass, ProgressMeter& meter) {

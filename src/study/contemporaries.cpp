@@ -118,11 +118,11 @@ void tell_adaptive(const Findings& findings, Story& story) {
   story.paragraph(fmt::format(
       "{} samples a pixel everywhere, and as many as rpf adapt places them from {} on: trimmed relMSE of both.",
       adapted_samples, bench::adapted_from));
-  report::Table table{{"method"}, {}, 1};
-  for (const std::string& scene : findings.scenes()) table.header.push_back(scene);
-  for (const std::string label : adapted_labels) {
-    table.rows.push_back({label});
-    for (const std::string& scene : findings.scenes()) {
+  report::Table table{{"scene"}, {}, 1};
+  table.header.insert(table.header.end(), adapted_labels.begin(), adapted_labels.end());
+  for (const std::string& scene : findings.scenes()) {
+    table.rows.push_back({scene});
+    for (const std::string label : adapted_labels) {
       const Outcome& adaptive = findings.at(scene, adapted(label), adapted_samples);
       const double part = part_of_even(findings, adaptive, label), after = adaptive.error("trimmed_relMSE");
       table.rows.back().push_back(

@@ -47,6 +47,14 @@ class ConventionsTest(CommandCase):
         self.assertEqual(self.notes(frame(x0=100000), x0=100000), [])
         self.assertNotIn("note:", run("info", EXAMPLE).stdout)
 
+    def test_pixels_that_weigh_nothing_are_told(self):
+        weights = np.ones(W * H * SPP, np.float32)
+        weights[2 * SPP:4 * SPP + 1] = 0  # of pixels 2 and 3, and a sample of the next
+        write_raw(self.samples, {**frame(), "weight": weights})
+        for preset in ([], ["--profile", "thesis"]):
+            result = run("--backend", "cpu", *preset, "--crop", "2x2+0+0", self.samples, "-o", self.output)
+            self.expect(result, 0, "pixels whose samples all have weight 0: 2 (first at pixel 2,0)")
+
     def test_no_scene_of_ours_contradicts_it(self):
         for line in run("scene", "--list").stdout.splitlines():
             path = self.folder / "scene.exr"

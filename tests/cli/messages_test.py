@@ -101,6 +101,25 @@ class MessagesTest(CommandCase):
             self.expect_line(run(self.samples, "-o", self.output, option), option)
         self.expect_line(run(self.samples, "-o", self.output, "--no-such-option"), "--no-such-option", "rpf --help")
 
+    def test_an_empty_value_is_no_missing_option(self):
+        """A variable of a script that is not set."""
+        for option in ("--frames", "--chunk", "--aov", "--crop", "--report", "--log-json", "--features", "-d"):
+            self.expect_line(run(self.samples, "-o", self.output, option, ""), option if option != "-d" else "--device", "leave the option out")
+        self.expect_line(run("convert", self.samples, "-o", self.output, "--map", ""), "--map", "leave the option out")
+        self.expect_line(run("report", self.samples, self.samples, "-o", ""), "-o", "leave the option out")
+        self.assertFalse(self.output.exists())
+
+    def test_options_before_a_command_are_refused(self):
+        for stray in (["--max-memory", "1"], ["-q"], ["--backend", "cpu"], ["--map", "feature.N.X="], [self.samples]):
+            self.expect_line(run(*stray, "convert", self.samples, "-o", self.output), "convert", str(stray[0]), "comes first")
+        self.assertFalse(self.output.exists())
+        self.expect(run("convert", self.samples, "-o", self.output, RPF_BACKEND="cpu", RPF_NUM_THREADS="1"), 0)
+
+    def test_a_word_that_is_no_command(self):
+        for word in ("frobnicate", "help"):
+            self.expect_line(run(word), word, "rpf --help")
+        self.expect_line(run(self.samples), "no output", "-o")
+
     # ---- windows: what is printed is what is taken
 
     def test_windows_are_printed_as_they_are_taken(self):

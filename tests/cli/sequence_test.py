@@ -93,6 +93,9 @@ class SequenceTest(CommandCase):
             self.expect(self.filter(*arguments), 2, text)
         self.expect(run(self.input, "-o", self.folder / "one.exr"), 2, "out.####.exr")
         self.expect(run(self.frame(1, "in"), "-o", self.frame(1), "--frames", "1"), 2, "in.####.exr")
+        self.expect(run(self.frame(1, "in"), "-o", self.output), 2, "-o", "is one file")
+        for option in ("--aov", "--report"):
+            self.expect(run(self.frame(1, "in"), "-o", self.frame(1), option, self.output), 2, option, "is one file")
         self.expect(run(self.folder / "in.##.##.exr", "-o", self.output), 2, "2 places")
         self.expect(run(self.folder / "none.####.exr", "-o", self.output), 3, "none.####.exr", "--frames")
         self.expect(self.filter("--log-json", self.folder / "no" / "log"), 4, "--log-json")

@@ -90,6 +90,14 @@ RC_GTEST_PROP(Estimate, StaysInsideItsBoundWhateverTheNetworkSays, ()) {
   RC_ASSERT(outside_bound(filtered(samples, settings_with(folder, any_network())), samples) == "");
 }
 
+RC_GTEST_PROP(Estimate, OfPixelsWithoutSamplesIsBlackWhateverIsAround, ()) {
+  const TemporaryFolder folder;
+  const SampleBuffer samples = every_input({24, 16, 0, static_cast<std::uint32_t>(*rc::gen::inRange(0, 1 << 30))});
+  const std::vector<float> picture = filtered(samples, settings_with(folder, any_network()));
+  for (std::size_t i = 0; i < picture.size(); ++i)
+    if (samples.first_sample[i / 3] == samples.first_sample[i / 3 + 1]) RC_ASSERT(picture[i] == 0.0F);
+}
+
 RC_GTEST_PROP(Estimate, StaysInsideItsBoundForRadianceOfAllMagnitudes, ()) {
   const TemporaryFolder folder;
   SampleBuffer samples = any_estimated_frame();
