@@ -35,6 +35,15 @@ const char* meaning(const std::string& slot) {
   return "the sample's radiance";
 }
 
+/// Says where the channel of a slot's name went, where it has gone to another slot.
+void check_not_taken(const std::string& path, const std::vector<SampleFileChannel>& channels, const std::string& slot) {
+  for (const SampleFileChannel& channel : channels)
+    if (channel.name == slot && !channel.slot.empty())
+      reject(path, fmt::format("has nothing left for {0}: its channel {0} is read as {1}; name another for one of them "
+                               "with --map {0}=CHANNEL or --map {1}=CHANNEL",
+                               slot, channel.slot));
+}
+
 }  // namespace
 
 Window window_of(const std::string& path, const char* attribute, const Corners& corners, std::int64_t limit) {
@@ -91,10 +100,11 @@ void check_marker(const std::string& path, const DeepHeader& header, const std::
 void check_slots(const std::string& path, const std::vector<SampleFileChannel>& channels) {
   for (const std::string slot : {"R", "G", "B", "film.X", "film.Y"}) {
     const auto fills = [&](const SampleFileChannel& channel) { return channel.slot == slot; };
-    if (std::none_of(channels.begin(), channels.end(), fills))
-      reject(path, fmt::format("has no channel for {0} ({1}); write a channel {0} or name it with --map {0}=CHANNEL "
-                               "(the file has {2})",
-                               slot, meaning(slot), channel_names(channels)));
+    if (std::any_of(channels.begin(), channels.end(), fills)) continue;
+    check_not_taken(path, channels, slot);
+    reject(path, fmt::format("has no channel for {0} ({1}); write a channel {0} or name it with --map {0}=CHANNEL "
+                             "(the file has {2})",
+                             slot, meaning(slot), channel_names(channels)));
   }
   for (const SampleFileChannel& channel : channels)
     if (!channel.slot.empty() && channel.type == PixelType::unsigned_int)

@@ -109,6 +109,10 @@ class MessagesTest(CommandCase):
         self.expect_line(run("report", self.samples, self.samples, "-o", ""), "-o", "leave the option out")
         self.assertFalse(self.output.exists())
 
+    def test_a_channel_that_is_mapped_away_is_no_missing_one(self):
+        for arguments in ([], ["--preset", "fast"]):
+            self.expect(run(*arguments, self.samples, "-o", self.output, "--map", "R=G"), 3, "its channel G is read as R", "--map G=CHANNEL")
+
     def test_options_before_a_command_are_refused(self):
         for stray in (["--max-memory", "1"], ["-q"], ["--backend", "cpu"], ["--map", "feature.N.X="], [self.samples]):
             self.expect_line(run(*stray, "convert", self.samples, "-o", self.output), "convert", str(stray[0]), "comes first")
