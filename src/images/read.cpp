@@ -11,7 +11,6 @@
 #include "io/attributes.h"
 #include "io/file_bytes.h"
 #include "io/guard.h"
-#include "io/raw_header.h"
 #include "rpf/srgb.h"
 
 namespace rpf::images {
@@ -55,7 +54,6 @@ std::unique_ptr<oiio::ImageInput> open_image(const std::string& path) {
   // OpenImageIO would multiply the encoded colors by alpha; we do it after decoding.
   config.attribute("oiio:UnassociatedAlpha", 1);
   auto input = oiio::ImageInput::open(path, &config);
-  if (!input && is_raw(path)) reject(path, "is a sample file, but a flat image is needed; filter the samples first");
   if (!input)
     reject(path, fmt::format("cannot be read as an image ({}); use .exr, .tif, .hdr, .png or another image format",
                              first_line(oiio::geterror())));
