@@ -7,6 +7,7 @@
 
 #include "cli/dropped.h"
 #include "cli/feature_files.h"
+#include "cli/frame_numbers.h"
 #include "cli/frame_page.h"
 #include "cli/frame_part.h"
 #include "cli/method_options.h"
@@ -109,6 +110,17 @@ std::vector<PlannedOutput> planned_outputs(const FilterOptions& options, const F
   return outputs;
 }
 
+/// Of one frame: the place for a frame's number would become a part of each name.
+void check_names(const FilterOptions& options) {
+  const std::pair<const char*, const std::string*> files[] = {
+      {"-o", &options.output}, {"--aov", &options.aov}, {"--report", &options.report}, {"--facts", &options.facts}};
+  for (const auto& [option, text] : files)
+    if (FramePattern(*text).has_place())
+      throw Error(ErrorKind::usage, fmt::format("{} {}: has a place for the number of a frame, but \"{}\" is one file; "
+                                                "name one file, or the input with a place too, such as in.####.exr",
+                                                option, *text, options.input));
+}
+
 void check_usage(const FilterOptions& options) {
   if (options.input.empty())
     throw Error(ErrorKind::usage, "no input: name a sample file, as in rpf render.samples.exr -o filtered.exr");
@@ -119,6 +131,7 @@ void check_usage(const FilterOptions& options) {
                                               options.input));
   if (options.output.empty() && !options.dry_run)
     throw Error(ErrorKind::usage, "no output: name the image to write with -o, as in -o filtered.exr");
+  check_names(options);
 }
 
 void check_features(const FilterOptions& options, const SampleFileInfo& info) {

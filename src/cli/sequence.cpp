@@ -45,17 +45,6 @@ std::string frame_path(const char* option, const std::string& text, int frame) {
   return pattern.path_of(frame);
 }
 
-/// Of one file: the place for a frame's number would become a part of each name.
-void check_one_frame(const FilterOptions& filter) {
-  const std::pair<const char*, const std::string*> files[] = {
-      {"-o", &filter.output}, {"--aov", &filter.aov}, {"--report", &filter.report}, {"--facts", &filter.facts}};
-  for (const auto& [option, text] : files)
-    if (FramePattern(*text).has_place())
-      throw Error(ErrorKind::usage, fmt::format("{} {}: has a place for the number of a frame, but \"{}\" is one file; "
-                                                "name one file, or the input with a place too, such as in.####.exr",
-                                                option, *text, filter.input));
-}
-
 std::vector<int> numbers_of(const FramePattern& input, const FilterOptions& filter, const SequenceOptions& o) {
   std::vector<int> frames = o.frames.empty() ? input.existing() : frame_numbers(o.frames);
   if (frames.empty())
@@ -215,9 +204,8 @@ void add_sequence_options(CLI::App& app, SequenceOptions& o) {
 }
 
 bool is_sequence(const FilterOptions& filter, const SequenceOptions& o) {
-  const bool has_frames = FramePattern(filter.input).has_place();
-  if (!has_frames) check_one_frame(filter);
-  return has_frames || !o.frames.empty() || !o.chunk.empty() || !o.log.empty() || o.skip_existing || o.skip_bad_frames;
+  return !o.frames.empty() || !o.chunk.empty() || !o.log.empty() || o.skip_existing || o.skip_bad_frames ||
+         FramePattern(filter.input).has_place();
 }
 
 int run_sequence(const FilterOptions& filter, const SequenceOptions& options) {

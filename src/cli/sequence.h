@@ -15,8 +15,7 @@ struct SequenceOptions {
 
 void add_sequence_options(CLI::App& app, SequenceOptions& options);
 
-/// Where an option of sequences is given, or the input's name has a place for the number of a frame. Throws
-/// Error(usage) where only a result's name has one.
+/// Where an option of sequences is given, or the input's name has a place for the number of a frame.
 bool is_sequence(const FilterOptions& filter, const SequenceOptions& options);
 
 /// One status line a frame on standard output; the last one lists the frames that failed. Returns the largest exit code

@@ -14,6 +14,11 @@ bool is_miss(const float* record, const Columns& columns) {
                      [&](std::size_t c) { return is_missing(record[c]); });
 }
 
+bool weigh_nothing(const SampleBuffer& samples, std::uint32_t begin, std::uint32_t end, std::size_t weight) {
+  while (begin < end && samples.record(begin)[weight] == 0) ++begin;
+  return begin == end;
+}
+
 }  // namespace
 
 void move_samples(SampleBuffer& samples, std::uint32_t begin, std::uint32_t end, std::uint32_t kept) {
@@ -38,11 +43,10 @@ std::uint32_t SampleCleaner::keep_samples(SampleBuffer& samples, std::uint32_t b
 
 void SampleCleaner::count_pixel(const SampleBuffer& samples, std::uint32_t begin, std::uint32_t end,
                                 std::size_t pixel) {
-  if (begin == end) findings_.empty.add(pixel);
-  if (begin == end || !columns_.weight) return;
-  std::uint32_t sample = begin;
-  while (sample < end && samples.record(sample)[*columns_.weight] == 0) ++sample;
-  if (sample == end) findings_.weightless.add(pixel);
+  if (begin == end)
+    findings_.empty.add(pixel);
+  else if (columns_.weight && weigh_nothing(samples, begin, end, *columns_.weight))
+    findings_.weightless.add(pixel);
 }
 
 bool SampleCleaner::clean_usable(float* record, std::size_t pixel) {

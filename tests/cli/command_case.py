@@ -7,8 +7,8 @@ from pathlib import Path
 
 RPF, PROJECT = sys.argv[1], Path(sys.argv[2]).resolve()
 EXAMPLE = PROJECT / "examples" / "dof-spheres.samples.exr"
-SANITIZED = b"__asan_init" in Path(RPF).read_bytes()
 REFERENCE = PROJECT / "examples" / "dof-spheres.reference.exr"
+SANITIZED = b"__asan_init" in Path(RPF).read_bytes()  # slower, and of larger memory
 
 
 class CommandCase(unittest.TestCase):

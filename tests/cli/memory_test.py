@@ -12,11 +12,11 @@ from pathlib import Path
 
 import numpy as np
 
+from command_case import SANITIZED
 from small_files import write_exr
 
 RPF, PROJECT = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 EXAMPLE = PROJECT / "examples" / "dof-spheres.samples.exr"
-SANITIZED = b"__asan_init" in RPF.read_bytes()
 PROGRAM_MB = 260  # what the program itself takes, with all libraries that read images and with OpenCL
 HEADERS_MB = 8  # enough for headers
 

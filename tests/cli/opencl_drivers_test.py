@@ -9,11 +9,12 @@ import time
 import unittest
 from pathlib import Path
 
+from command_case import SANITIZED
+
 RPF, PROJECT = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 EXAMPLE = PROJECT / "examples" / "dof-spheres.samples.exr"
 SMALL = ["--boxes", "5,3", "--crop", "16x12+20+20"]
 NETWORK = ["--preset", "fast", "--crop", "16x12+20+20"]
-SANITIZED = b"__asan_init" in RPF.read_bytes()
 
 # A driver that does something as soon as it is loaded, and leaves a line in $STARTS.
 DRIVER = """
