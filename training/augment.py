@@ -112,11 +112,20 @@ def quieter(samples, reference, rng):
     return samples
 
 
+def noisier(samples, rng):
+    """Keeps a sample's radiance with a probability, and divides by it (Russian roulette): noise of worse samplers, of the same mean."""
+    if rng.random() < 0.2:
+        keep = 2.0 ** -float(rng.uniform(0, 2.5))
+        color = samples[SAMPLE["color"]]
+        color *= (torch.rand(1, *color.shape[1:]) < keep) / keep
+    return samples
+
+
 def augmented(samples, reference, rng):
     """[27, n, y, x], [3, y, x] of one frame -> the same for a step, and whether albedo is there."""
     samples, reference = chosen_samples(samples, reference, rng)
     samples, reference = turned(samples.float(), reference.float(), rng)
     samples, reference = recolored(samples, reference, rng)
-    samples = quieter(world_turned(samples, rng), reference, rng)
+    samples = noisier(quieter(world_turned(samples, rng), reference, rng), rng)
     samples, has_albedo = without_groups(samples, rng)
     return samples, reference, has_albedo

@@ -36,6 +36,11 @@ std::uint64_t scheduled_memory() {
 
 }  // namespace
 
+std::string quoted_with_source(const std::string& text, const std::string& variable) {
+  const char* value = variable.empty() ? nullptr : std::getenv(variable.c_str());
+  return fmt::format("{}'{}'", value != nullptr && text == value ? variable + "=" : "", text.substr(0, 40));
+}
+
 int default_threads() {
   for (const char* variable : {"SLURM_CPUS_PER_TASK", "CUE_THREADS", "NSLOTS"})
     if (const std::uint64_t threads = number_in(variable, ranges::threads, "--threads"))

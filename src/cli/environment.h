@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 namespace rpf::cli {
 
@@ -11,5 +12,8 @@ int default_threads();
 /// Bytes that a run may take: --max-memory in megabytes (or RPF_MAX_MEMORY_MB); where that is 0, nine tenths of
 /// available_memory() or of the scheduler's SLURM_MEM_PER_NODE (megabytes) or CUE_MEMORY (kilobytes), if less.
 std::uint64_t memory_limit(std::uint64_t megabytes);
+
+/// 'text', or VARIABLE='text' where this variable of the environment holds just that; at most 40 bytes of it.
+std::string quoted_with_source(const std::string& text, const std::string& variable);
 
 }  // namespace rpf::cli

@@ -6,6 +6,7 @@
 #include <map>
 #include <regex>
 
+#include "cli/choices.h"
 #include "cli/environment.h"
 #include "cli/method_options.h"
 #include "cli/numbers.h"
@@ -74,7 +75,7 @@ void add_model_options(CLI::App& app, FilterOptions& o) {
          "--profile", o.profile,
          "Random Parameter Filtering as published. thesis: M = b^2/2 samples a neighborhood; paper: M = b^2 s/2 "
          "and the outlier step")
-      ->check(CLI::IsMember({"thesis", "paper"}))
+      ->check(one_of({"thesis", "paper"}))
       ->capture_default_str();
   app.add_option("--boxes", o.boxes, "Box width of each pass in pixels, or none")
       ->type_name("LIST")
@@ -155,7 +156,7 @@ void add_preset_option(CLI::App& app, std::string& preset) {
     names.push_back(info.name);
     text += fmt::format("\n{}: {}", info.name, info.purpose);
   }
-  app.add_option("--preset", preset, text)->check(CLI::IsMember(names))->default_str("balanced");
+  app.add_option("--preset", preset, text)->check(one_of(names))->default_str("balanced");
 }
 
 void add_map_option(CLI::App& app, std::vector<std::string>& map) {
@@ -180,7 +181,7 @@ void add_machine_options(CLI::App& app, FilterOptions& o) {
   app.add_option(
          "--backend", o.settings.backend,
          "cpu: the scalar reference; opencl: the same bits, faster; auto: opencl where a device passes its test")
-      ->check(CLI::IsMember(backend_names()))
+      ->check(one_of(backend_names(), "RPF_BACKEND"))
       ->envname("RPF_BACKEND")
       ->capture_default_str()
       ->group(group);
@@ -192,7 +193,7 @@ void add_machine_options(CLI::App& app, FilterOptions& o) {
       ->group(group);
   add_memory_option(app, o.max_memory_mb)->group(group);
   app.add_option("--progress", o.progress, "auto, never, always")
-      ->check(CLI::IsMember({"auto", "never", "always"}))
+      ->check(one_of({"auto", "never", "always"}))
       ->capture_default_str()
       ->group(group);
   app.add_flag("-q,--quiet", o.quiet, "Only errors")->group(group);

@@ -75,8 +75,9 @@ void FrameLog::finish(std::size_t left) {
   std::vector<std::string> parts;
   for (std::size_t status = 0; status < std::size(status_names); ++status)
     if (counts_[status] > 0) parts.push_back(fmt::format("{} {}", counts_[status], status_names[status]));
+  if (!failed_.empty()) parts.back() += fmt::format(" ({})", fmt::join(failed_, ","));
   if (left > 0) parts.push_back(fmt::format("{} not begun", left));
-  cli::print("frames: {}{}{}\n", fmt::join(parts, ", "), failed_.empty() ? "" : ": ", fmt::join(failed_, ","));
+  cli::print("frames: {}\n", fmt::join(parts, ", "));
 }
 
 }  // namespace rpf::cli

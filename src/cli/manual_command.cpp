@@ -1,5 +1,6 @@
 #include "cli/manual_command.h"
 
+#include "cli/choices.h"
 #include "cli/option_texts.h"
 #include "cli/print.h"
 #include "rpf/version.h"
@@ -12,7 +13,7 @@ Command add_manual_command(CLI::App& app) {
   command->group("");  // for packages
   command->add_option("FORM", *form, "man, bash, zsh or fish")
       ->required()
-      ->check(CLI::IsMember({"man", "bash", "zsh", "fish"}));
+      ->check(one_of({"man", "bash", "zsh", "fish"}));
   return [form, &app] {
     const std::vector<CommandText> commands = command_texts(app);
     print_text(*form == "man"    ? manual_page(commands, version(), app.get_footer())

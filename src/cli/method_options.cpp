@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "cli/choices.h"
 #include "cli/numbers.h"
 #include "rpf/error.h"
 #include "rpf/methods.h"
@@ -71,7 +72,7 @@ void add_method_options(CLI::App& app, FilterOptions& o) {
          "as bias and variance allow; sbf: cross-bilateral, each as wide as Stein's risk says; axis-aligned: soft "
          "shadows, as wide as their occluders allow. lightfield: samples seen again from other places of the lens at "
          "other times. multidim: the nearest samples in the space of film, lens and time")
-      ->check(CLI::IsMember(method_names()))
+      ->check(one_of(method_names()))
       ->default_str("learned; rpf where an option asks for it");
   restrict_to(app.add_option("--sigma-color", o.sigma_color,
                              "Standard deviation of the color, in linear radiance as the file has it"),

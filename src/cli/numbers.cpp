@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cstdlib>
+
+#include "cli/environment.h"
 
 namespace rpf::cli {
 
@@ -15,9 +16,7 @@ std::string refusal_of(const std::string& text, const NumberRange& range, const 
   if (failure == std::errc() && stop == end && range.has(value) &&
       (!range.whole || text.find_first_of(".eE") == std::string::npos))
     return "";
-  const char* from_environment = variable.empty() ? nullptr : std::getenv(variable.c_str());
-  const std::string source = from_environment != nullptr && text == from_environment ? variable + "=" : "";
-  return fmt::format("{}'{}': {}", source, text.substr(0, 40), range.expected());
+  return fmt::format("{}: {}", quoted_with_source(text, variable), range.expected());
 }
 
 std::string decimal(const std::string& text) {

@@ -19,7 +19,7 @@ inline CLI::Option* restrict_to(CLI::Option* option, const NumberRange& range, c
   if (!variable.empty()) option->envname(variable);
   return option->transform(CLI::Validator(
       [=](std::string& text) {
-        const std::string refusal = refusal_of(text, range, variable);
+        std::string refusal = refusal_of(text, range, variable);
         if (refusal.empty() && range.whole) text = decimal(text);
         return refusal;
       },

@@ -2,6 +2,7 @@
 
 #include <tuple>
 
+#include "cli/choices.h"
 #include "cli/commands.h"
 #include "cli/environment.h"
 #include "cli/filter_options.h"
@@ -127,7 +128,7 @@ void add_options(CLI::App& command, Options& o) {
   restrict_to(command.add_option("--seed", o.scene.seed, "Seed of the random numbers"), ranges::seed)
       ->capture_default_str();
   command.add_option("--sampler", o.sampler, "random, stratified, sobol")
-      ->check(CLI::IsMember({"random", "stratified", "sobol"}))
+      ->check(one_of({"random", "stratified", "sobol"}))
       ->capture_default_str();
   CLI::Option* adaptive =
       command.add_flag("--adaptive", o.scene.adaptive, "Counts vary: 0 to 2 * spp samples, all equally likely");
@@ -159,7 +160,7 @@ void add_world_options(CLI::App& command, Options& o) {
               "RPF_NUM_THREADS");
   add_memory_option(command, o.max_memory_mb);
   command.add_option("--progress", o.progress, "auto, never, always")
-      ->check(CLI::IsMember({"auto", "never", "always"}))
+      ->check(one_of({"auto", "never", "always"}))
       ->capture_default_str();
   command.add_flag("-q,--quiet", o.quiet, "Only errors");
 }

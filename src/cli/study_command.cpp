@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "cli/bench.h"
+#include "cli/choices.h"
 #include "cli/commands.h"
 #include "cli/filter_options.h"
 #include "cli/numbers.h"
@@ -113,7 +114,7 @@ Command add_study_command(CLI::App& app) {
                    "Pixels of the scenes; 320x180, contemporaries 160x90 and quick 192x108 if not given")
       ->type_name("WxH");
   command->add_option("--backend", options->backend, "As for filtering; changes the time, never a bit")
-      ->check(CLI::IsMember(backend_names()))
+      ->check(one_of(backend_names(), "RPF_BACKEND"))
       ->envname("RPF_BACKEND")
       ->capture_default_str();
   command->add_option("-d,--device", options->device, "OpenCL device: index of `rpf devices` or a part of its name")

@@ -78,6 +78,12 @@ class MessagesTest(CommandCase):
                 self.expect_line(run(self.samples, "-o", self.output, **{variable: value}), variable, "1048576", "--threads")
             self.expect_line(run("scene", "dof", "-o", self.folder / "x.exr", RPF_NUM_THREADS=value), "RPF_NUM_THREADS", "such as 8")
 
+    def test_names_of_the_environment_and_of_options_name_where_they_come_from(self):
+        self.expect_line(run(self.samples, "-o", self.output, RPF_BACKEND="gpu"), "RPF_BACKEND='gpu'", "cpu, opencl, auto")
+        by_option = run(self.samples, "-o", self.output, "--backend", "gpu", RPF_BACKEND="cpu")
+        self.expect_line(by_option, "--backend: 'gpu'", "cpu, opencl, auto")
+        self.assertNotIn("RPF_BACKEND", by_option.stderr)
+
     def test_numbers_of_the_other_commands(self):
         scene = ["scene", "dof", "-o", self.folder / "x.exr"]
         for arguments, texts in (([*scene, "--spp", "0"], ("--spp", "1048576")), ([*scene, "--reference", "1"], ("--reference", "2", "1048576")), ([*scene, "--seed", "-1"], ("--seed", "4294967295")),

@@ -108,14 +108,14 @@ class SequenceTest(CommandCase):
         self.frame(5, "in").unlink()
         result = self.filter("--frames", f"1-{FRAMES}", "--skip-bad-frames")
         self.expect(result, 3, "frame 3:", "in.0003.exr", "in.0005.exr")
-        self.assertEqual(result.stdout.splitlines()[-1], f"frames: {FRAMES - 2} done, 2 failed: 3,5")
+        self.assertEqual(result.stdout.splitlines()[-1], f"frames: {FRAMES - 2} done, 2 failed (3,5)")
         self.expect_as_single_runs([1, 2, 4, 6])
 
     def test_without_being_told_to_go_on_it_stops_there(self):
         self.frame(3, "in").write_bytes(b"nothing")
         result = self.filter()
         self.expect(result, 3)
-        self.assertEqual(result.stdout.splitlines()[-1], f"frames: 2 done, 1 failed, {FRAMES - 3} not begun: 3")
+        self.assertEqual(result.stdout.splitlines()[-1], f"frames: 2 done, 1 failed (3), {FRAMES - 3} not begun")
         self.expect_as_single_runs([1, 2])
 
     # ---- what is there already
