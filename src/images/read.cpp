@@ -11,6 +11,7 @@
 #include "io/attributes.h"
 #include "io/file_bytes.h"
 #include "io/guard.h"
+#include "io/raw_header.h"
 #include "rpf/srgb.h"
 
 namespace rpf::images {
@@ -49,7 +50,9 @@ void check_parts(const std::string& path) {
 }
 
 std::unique_ptr<oiio::ImageInput> open_image(const std::string& path) {
-  const FileBytes checked(path);  // for its clear errors: missing, folder, no permission
+  FileBytes file(path);  // for its clear errors: missing, folder, no permission
+  if (begins_like_raw(file))
+    reject(path, "begins like a raw sample file, but an image is needed; filter the samples first");
   oiio::ImageSpec config;
   // OpenImageIO would multiply the encoded colors by alpha; we do it after decoding.
   config.attribute("oiio:UnassociatedAlpha", 1);

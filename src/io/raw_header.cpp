@@ -179,7 +179,7 @@ Json json_of(const std::string& path, const std::string& name, const Attribute& 
 
 bool is_raw(const std::string& path) {
   FileBytes file(path);
-  return file.size() > 0 && file.byte(0, "its header") == '{';
+  return begins_like_raw(file);
 }
 
 RawHeader read_raw_header(FileBytes& file) {

@@ -46,6 +46,10 @@ class MessagesTest(CommandCase):
         shutil.copy(PROJECT / "examples" / "dof-spheres.reference.exr", self.folder / "flat.exr")
         self.expect(run(self.folder / "flat.exr", "-o", self.folder / "b.png"), 3, "a flat OpenEXR image", "--method bilateral")
 
+    def test_samples_in_place_of_an_image_are_named_as_such(self):
+        for samples, kind in ((self.samples, "raw sample file"), (EXAMPLE, "deep file")):
+            self.expect(run("compare", samples, samples), 3, samples.name, kind, "filter the samples first")
+
     # ---- numbers
 
     RANGES = {"--threads": ("1", "1048576"), "--max-memory": ("1", "1073741824"), "--noise": ("1e-12", "1e+12"), "--bins": ("3", "31"), "--redraws": ("0", "15"),
