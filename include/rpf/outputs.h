@@ -30,8 +30,13 @@ void check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<
 /// Throws Error(usage) where a crop is not inside the data window, so that it has nothing to write.
 void check_crop(const Window& crop, const Window& data_window);
 
-/// Whether two paths lead to one file, whatever they are called.
-bool is_same_file(const std::string& a, const std::string& b);
+/// The same text for all paths that lead to one file, whether it exists or not.
+std::string file_identity(const std::string& path);
+inline bool is_same_file(const std::string& a, const std::string& b) { return file_identity(a) == file_identity(b); }
+
+/// For what is written to bit by bit. Throws Error(output) where the path is no regular file that may be written to,
+/// and cannot become one.
+void check_target(const std::string& path);
 
 /// Bits of a value in an image with this name: 8, or 32 of a float. Throws Error(output) for an unknown extension.
 int stored_bits(const std::string& path);

@@ -10,6 +10,7 @@
 
 #include "cli/print.h"
 #include "rpf/error.h"
+#include "rpf/outputs.h"
 
 namespace rpf::cli {
 namespace {
@@ -55,6 +56,7 @@ std::string json_of(const FrameOutcome& o) {
 
 FrameLog::FrameLog(const std::string& path, bool quiet) : path_(path), quiet_(quiet) {
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // for whoever watches a long run
+  if (!path.empty()) check_target(path);
   if (!path.empty()) file_.reset(std::fopen(path.c_str(), "a"));
   if (!path.empty() && !file_) refuse(path);
 }

@@ -95,6 +95,14 @@ std::string FramePattern::path_of(int frame) const {
   return before_ + (frame < 0 ? "-" : "") + number + after_;
 }
 
+std::vector<int> FramePattern::listed() const {
+  try {
+    return existing();
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 std::vector<int> FramePattern::existing() const {
   const fs::path folder = fs::path(before_).parent_path();
   std::error_code failed;

@@ -26,6 +26,8 @@ class FramePattern {
   std::string path_of(int frame) const;
   /// The frames whose files are there, rising. Throws Error(input) where the folder cannot be read.
   std::vector<int> existing() const;
+  /// The same, none of a folder that does not let itself be listed.
+  std::vector<int> listed() const;
 
  private:
   std::string text_, before_, after_;

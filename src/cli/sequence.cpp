@@ -9,24 +9,17 @@
 #include <optional>
 
 #include "cli/filter_frame.h"
-#include "cli/filter_input.h"
 #include "cli/frame_log.h"
 #include "cli/frame_numbers.h"
 #include "cli/print.h"
+#include "cli/sequence_files.h"
 #include "cli/signals.h"
 #include "rpf/error.h"
-#include "rpf/outputs.h"
 
 namespace rpf::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// A frame with its own files.
-struct Task {
-  std::string name;
-  FilterOptions options;
-};
 
 /// A frame on its way: what is known of it before it is filtered.
 struct Upcoming {
@@ -53,7 +46,7 @@ std::vector<int> numbers_of(const FramePattern& input, const FilterOptions& filt
   return o.chunk.empty() ? frames : chunk_of(frames, o.chunk);
 }
 
-std::vector<Task> tasks_of(const FilterOptions& filter, const SequenceOptions& o) {
+std::vector<FrameTask> tasks_of(const FilterOptions& filter, const SequenceOptions& o) {
   const FramePattern input(filter.input);
   if (!input.has_place() && (!o.frames.empty() || !o.chunk.empty()))
     throw Error(ErrorKind::usage,
@@ -61,9 +54,9 @@ std::vector<Task> tasks_of(const FilterOptions& filter, const SequenceOptions& o
                             "is expected, such as in.####.exr",
                             filter.input));
   if (!input.has_place()) return {{filter.input, filter}};
-  std::vector<Task> tasks;
+  std::vector<FrameTask> tasks;
   for (const int number : numbers_of(input, filter, o)) {
-    Task task{std::to_string(number), filter};
+    FrameTask task{std::to_string(number), filter};
     task.options.input = input.path_of(number);
     task.options.output = frame_path("-o", filter.output, number);
     task.options.aov = frame_path("--aov", filter.aov, number);
@@ -74,17 +67,14 @@ std::vector<Task> tasks_of(const FilterOptions& filter, const SequenceOptions& o
   return tasks;
 }
 
-/// The path itself. Throws Error(usage) where it is a file of a frame, which lines behind its end would spoil.
-const std::string& log_beside(const std::vector<Task>& tasks, const std::string& log) {
-  for (const Task& task : tasks) {
-    std::vector<std::string> files = files_read(task.options);
-    files.insert(files.end(), {task.options.output, task.options.aov, task.options.report});
-    for (const std::string& file : files)
-      if (!log.empty() && !file.empty() && is_same_file(log, file))
-        throw Error(ErrorKind::usage,
-                    fmt::format("--log-json \"{}\" is \"{}\" of frame {}; name another file", log, file, task.name));
-  }
-  return log;
+/// The tasks themselves, once it is known that none spoils what another one has.
+std::vector<FrameTask> checked(std::vector<FrameTask> tasks, const FilterOptions& filter, const SequenceOptions& o) {
+  const FramePattern pattern(filter.input);
+  std::vector<std::string> inputs;
+  if (pattern.has_place())
+    for (const int number : pattern.listed()) inputs.push_back(pattern.path_of(number));
+  check_sequence_files(tasks, inputs, o.log);
+  return tasks;
 }
 
 bool was_made(const OpenFrame& frame) {
@@ -110,7 +100,9 @@ bool may_go_on(int exit_code) {
 class Sequence {
  public:
   Sequence(const FilterOptions& filter, const SequenceOptions& options)
-      : options_(options), tasks_(tasks_of(filter, options)), log_(log_beside(tasks_, options.log), filter.quiet) {}
+      : options_(options),
+        tasks_(checked(tasks_of(filter, options), filter, options)),
+        log_(options.log, filter.quiet) {}
 
   int run() {
     std::size_t done = 0;
@@ -146,7 +138,7 @@ class Sequence {
   }
 
   /// False where the sequence ends here.
-  bool finish(const Task& task, Upcoming upcoming) {
+  bool finish(const FrameTask& task, Upcoming upcoming) {
     FrameOutcome outcome;
     outcome.name = task.name, outcome.input = task.options.input, outcome.output = task.options.output;
     std::optional<Result> result;
@@ -178,7 +170,7 @@ class Sequence {
   }
 
   const SequenceOptions options_;
-  const std::vector<Task> tasks_;
+  const std::vector<FrameTask> tasks_;
   FrameLog log_;
   Clock::time_point latest_ = Clock::now();
 };

@@ -75,14 +75,14 @@ bool is_one_file(const struct stat& a, const struct stat& b) { return a.st_dev =
 
 }  // namespace
 
-bool OutputPlace::is_same(const OutputPlace& other) const {
-  // Two names of a file with one link: its folder takes capital and small letters for the same.
-  if (old && other.old && is_one_file(*old, *other.old) && old->st_nlink == 1) return true;
-  const auto folder = status_of(folder_of(path)), others = status_of(folder_of(other.path));
-  if (folder && others)
-    return is_one_file(*folder, *others) && fs::path(path).filename() == fs::path(other.path).filename();
-  std::error_code unknown;  // in folders that are still to be made
-  return fs::weakly_canonical(path, unknown) == fs::weakly_canonical(other.path, unknown);
+std::string OutputPlace::identity() const {
+  const auto number_of = [](const struct stat& status) { return fmt::format("{}:{}", status.st_dev, status.st_ino); };
+  // A file with one link may have two names: where its folder takes capital and small letters for the same.
+  if (old && old->st_nlink == 1) return number_of(*old);
+  if (const auto folder = status_of(folder_of(path)))
+    return fmt::format("{}/{}", number_of(*folder), fs::path(path).filename().string());
+  std::error_code unknown;  // in a folder that is still to be made
+  return fs::weakly_canonical(path, unknown).string();
 }
 
 OutputPlace output_place(const std::string& target) {

@@ -13,8 +13,9 @@ struct OutputPlace {
   std::string path;                ///< behind symbolic links; a rename onto it leaves the links as they are
   std::optional<struct stat> old;  ///< of the regular file that is there now
 
-  /// True where both names lead to one file, whether it exists or not. Hard links are two files: a rename replaces one.
-  bool is_same(const OutputPlace& other) const;
+  /// The same text for all names of one file, whether it exists or not. Hard links are two files: a rename replaces one.
+  std::string identity() const;
+  bool is_same(const OutputPlace& other) const { return identity() == other.identity(); }
 };
 
 /// Follows `target`. Throws Error(usage) for an empty name, Error(output) for links in a circle and for what a result

@@ -65,7 +65,9 @@ void check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<
   }
 }
 
-bool is_same_file(const std::string& a, const std::string& b) { return io::input_place(a).is_same(io::input_place(b)); }
+std::string file_identity(const std::string& path) { return io::input_place(path).identity(); }
+
+void check_target(const std::string& path) { io::output_place(path); }
 
 int stored_bits(const std::string& path) { return io::format_of(path).encoding == io::Encoding::srgb_bytes ? 8 : 32; }
 

@@ -1,4 +1,5 @@
 // rpf_probe: asks an OpenCL driver in a process of its own (src/opencl/child.h). Not for users.
+#include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -19,6 +20,13 @@ void belong_to_the_caller() {
   ::setrlimit(RLIMIT_CORE, &none);
 }
 
+/// Where the answer goes. What drivers print on standard output joins their other words, and is no part of it.
+int take_standard_output() {
+  const int answers = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  ::dup2(STDERR_FILENO, STDOUT_FILENO);
+  return answers;
+}
+
 std::string answer(int argc, char** argv) {
   try {
     return rpf::answer_probe({argv + 1, argv + argc});
@@ -31,9 +39,10 @@ std::string answer(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   belong_to_the_caller();
+  const int answers = take_standard_output();
   const std::string text = answer(argc, argv) + rpf::end_of_answer;
   for (std::size_t done = 0; done < text.size();) {
-    const ssize_t count = ::write(STDOUT_FILENO, text.data() + done, text.size() - done);
+    const ssize_t count = ::write(answers, text.data() + done, text.size() - done);
     if (count <= 0) break;
     done += static_cast<std::size_t>(count);
   }

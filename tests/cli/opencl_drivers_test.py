@@ -134,6 +134,15 @@ class Drivers(unittest.TestCase):
                 self.expect_cpu("this driver is broken", **broken)
                 self.expect(self.run_rpf("devices", **broken), 5, "this driver is broken", "--backend=cpu")
 
+    def test_a_driver_that_prints_spoils_no_answer_of_another(self):
+        """On standard output, where the child that asks both has its answer."""
+        talking = self.driver(r'puts("5\nno device"); fflush(stdout)')
+        for file in Path("/etc/OpenCL/vendors").glob("pocl*.icd"):
+            shutil.copy(file, self.folder / "vendors")
+        self.expect(self.filter("opencl", **talking), 0)
+        self.expect_same_bits()
+        self.expect(self.run_rpf("devices", **talking), 0, "keeps the numeric contract")
+
     def test_what_is_known_of_a_driver_is_remembered(self):
         broken = self.driver("abort()")
         self.expect(self.filter("opencl", **broken), 5)

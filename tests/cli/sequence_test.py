@@ -98,7 +98,31 @@ class SequenceTest(CommandCase):
             self.expect(run(self.frame(1, "in"), "-o", self.frame(1), option, self.output), 2, option, "is one file")
         self.expect(run(self.folder / "in.##.##.exr", "-o", self.output), 2, "2 places")
         self.expect(run(self.folder / "none.####.exr", "-o", self.output), 3, "none.####.exr", "--frames")
-        self.expect(self.filter("--log-json", self.folder / "no" / "log"), 4, "--log-json")
+        self.expect(self.filter("--log-json", self.folder / "no" / "log"), 4)
+        self.assertEqual(self.made(), [])
+
+    def test_no_result_is_a_file_of_another_frame(self):
+        for number in (10, 11, 12):
+            shutil.copy(self.frame(1, "in"), self.folder / f"s.{number}.exr")
+        shutil.copy(self.frame(1, "in"), self.folder / "s.0.exr")
+        before = {path: path.read_bytes() for path in self.folder.iterdir()}
+        pattern, shifted = self.folder / "s.%d.exr", self.folder / "s.1%d.exr"
+        for frames in ("0,10", "0"):  # s.10.exr is a frame of the sequence, whether it is filtered now or not
+            for dry_run in ([], ["--dry-run"]):
+                self.expect(run(*dry_run, pattern, "-o", shifted, "--frames", frames), 2, "-o of frame 0", "s.10.exr", "would be lost")
+        result = self.folder / "o.%d.exr"
+        for option in ("--aov", "--report"):
+            self.expect(run(pattern, "-o", result, option, self.folder / "o.1%d.exr", "--frames", "0,10"), 2, "o.10.exr", "is written by", "too")
+        self.expect(run(pattern, "-o", result, "--frames", "0", "--log-json", self.folder / "s.11.exr"), 2, "--log-json", "another frame")
+        self.assertEqual({path: path.read_bytes() for path in self.folder.iterdir()}, before)
+
+    def test_a_log_is_a_file_that_may_be_written_to(self):
+        pipe, kept = self.folder / "pipe", self.folder / "kept.log"
+        os.mkfifo(pipe)
+        kept.write_text("")
+        kept.chmod(0o444)
+        for log, text in ((pipe, "a pipe"), (kept, "write-protected"), (self.folder, "a folder")):
+            self.expect(self.filter("--log-json", log), 4, str(log), text)
         self.assertEqual(self.made(), [])
 
     # ---- frames that fail

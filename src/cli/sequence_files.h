@@ -1,0 +1,22 @@
+// The files of all frames of a sequence together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/filter_options.h"
+
+namespace rpf::cli {
+
+/// A frame with its own files.
+struct FrameTask {
+  std::string name;  ///< the number of the frame; of a file without one its name
+  FilterOptions options;
+};
+
+/// Throws Error(usage) where a result of a frame is a file that another frame reads or writes, or where `log` is a file
+/// of any frame. `inputs`: of the sequence, those of other frames too.
+void check_sequence_files(const std::vector<FrameTask>& tasks, const std::vector<std::string>& inputs,
+                          const std::string& log);
+
+}  // namespace rpf::cli
