@@ -17,12 +17,19 @@ enum class ErrorKind {
   cancelled = 130  ///< stopped on request (signal or callback)
 };
 
+/// `text` with ? for control characters: a file's name must not break a line or steer a terminal.
+inline std::string printable(std::string text) {
+  for (char& letter : text)
+    if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) letter = '?';
+  return text;
+}
+
 /// The only exception type this library throws on purpose. what() is one sentence that names the file, channel, pixel
-/// or option, says what was expected and what to do next.
+/// or option, says what was expected and what to do next; on one line, whatever the names in it are.
 class Error : public std::runtime_error {
  public:
   /// `message`: one sentence, as above.
-  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  Error(ErrorKind kind, const std::string& message) : std::runtime_error(printable(message)), kind_(kind) {}
   /// What went wrong.
   ErrorKind kind() const { return kind_; }
 

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <sstream>
@@ -96,14 +97,17 @@ class Growing {
     check_in_place(info, o_.file);
     files_ = {info};
     frame_ = read_samples(o_.file, read_);
+    if (!o_.quiet) tell_not_finite(frame_);
   }
 
   /// The rounds so far, in a line. Returns the estimated error.
   double tell() const {
     const double error = mean_error(frame_);
     show_status("");
-    if (!o_.quiet)
+    if (!o_.quiet) {
       print("round {}: {:.2f} samples a pixel, estimated relMSE {:.4g}\n", round_, mean_samples(frame_), error);
+      std::fflush(stdout);  // a round may take hours
+    }
     return error;
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cli/commands.h"
+#include "cli/dropped.h"
 #include "cli/environment.h"
 #include "cli/filter_options.h"
 #include "cli/needs.h"
@@ -25,9 +26,10 @@ struct Options {
 };
 
 Image density_of(const Options& o, const SampleReadOptions& reading) {
-  if (o.estimate.empty()) return sample_density(read_samples(o.input, reading), o.samples);
-  const Image estimate = read_image(o.estimate, reading.max_memory);
-  return sample_density(read_samples(o.input, reading), o.samples, estimate);
+  const SampleBuffer samples = read_samples(o.input, reading);
+  tell_not_finite(samples);
+  if (o.estimate.empty()) return sample_density(samples, o.samples);
+  return sample_density(samples, o.samples, read_image(o.estimate, reading.max_memory));
 }
 
 /// Samples as they are read, some numbers a pixel, and the estimate.

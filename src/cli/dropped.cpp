@@ -4,6 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "cli/print.h"
@@ -41,6 +44,17 @@ SampleFileInfo as_image(SampleFileInfo info, const std::string& output) {
 void tell_dropped(const SampleFileInfo& info) {
   const std::string dropped = dropped_of(info);
   if (!dropped.empty()) remark("rpf: note: \"{}\": not in the result: {}\n", info.path, dropped);
+}
+
+void tell_not_finite(const SampleBuffer& samples) {
+  const std::size_t colors[] = {*samples.layout.find("R"), *samples.layout.find("G"), *samples.layout.find("B")};
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < samples.sample_count(); ++i) {
+    const float* record = samples.record(i);
+    const auto is_finite = [&](std::size_t c) { return std::isfinite(record[c]); };
+    count += std::all_of(std::begin(colors), std::end(colors), is_finite) ? 0 : 1;
+  }
+  if (count > 0) remark("rpf: note: samples left out: R, G or B not finite: {}\n", count);
 }
 
 void check_in_place(const SampleFileInfo& info, const std::string& output) {

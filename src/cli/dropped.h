@@ -13,6 +13,9 @@ SampleFileInfo as_image(SampleFileInfo info, const std::string& output);
 /// One remark that lists channels without a slot and attributes of unknown types; nothing where there are none.
 void tell_dropped(const SampleFileInfo& info);
 
+/// One remark that counts samples whose color is not finite, of which filters and densities make nothing.
+void tell_not_finite(const SampleBuffer& samples);
+
 /// Throws Error(usage) where `output` would replace the file and something of it would be dropped, or would be stored
 /// in fewer bits than it has.
 void check_in_place(const SampleFileInfo& info, const std::string& output);

@@ -141,6 +141,15 @@ void check_features(const FilterOptions& options, const SampleFileInfo& info) {
     throw Error(ErrorKind::usage, fmt::format("--aov: \"{}\" has no features; leave it out", info.path));
 }
 
+/// What rpf join needs to know of a part stands in attributes of OpenEXR.
+void check_part_name(const FilterOptions& options) {
+  const std::string extension = std::filesystem::path(options.output).extension().string();
+  if (!options.rows.empty() && !options.output.empty() && extension != ".exr" && extension != ".EXR")
+    throw Error(ErrorKind::usage, fmt::format("--rows: \"{}\" could not be joined with the other parts; name an .exr "
+                                              "file",
+                                              options.output));
+}
+
 /// A part of a frame, or a whole one of which facts are known.
 void open_parts(OpenFrame& frame) {
   const FilterOptions& options = frame.options;
@@ -157,6 +166,7 @@ void open_parts(OpenFrame& frame) {
   if (!options.report.empty() || !options.time_budget.empty())
     throw Error(ErrorKind::usage, fmt::format("{}: {} needs the whole frame; leave one of them out", option,
                                               options.report.empty() ? "--time-budget" : "--report"));
+  check_part_name(options);
   frame.by_rows = true;
   if (!options.facts.empty()) frame.facts = read_facts(options.facts, options.input, frame.settings, options.map);
   if (!options.rows.empty()) frame.settings.crop = rows_of(options.rows, frame.input.info.data_window);

@@ -65,10 +65,10 @@ void FrameLog::add(const FrameOutcome& outcome) {
   ++counts_[static_cast<int>(outcome.status)];
   exit_code_ = std::max(exit_code_, outcome.exit_code);
   if (outcome.status == FrameStatus::failed) {
-    failed_.push_back(outcome.name);
-    remark("rpf: error: frame {}: {}\n", outcome.name, outcome.error);
+    failed_.push_back(printable(outcome.name));
+    remark("rpf: error: frame {}: {}\n", failed_.back(), outcome.error);
   }
-  if (!quiet_) print("{}\n", line_of(outcome));
+  if (!quiet_) print("{}\n", printable(line_of(outcome)));
   if (file_ && (std::fputs(json_of(outcome).c_str(), file_.get()) < 0 || std::fflush(file_.get()) != 0)) refuse(path_);
 }
 
@@ -79,7 +79,7 @@ void FrameLog::finish(std::size_t left) {
     if (counts_[status] > 0) parts.push_back(fmt::format("{} {}", counts_[status], status_names[status]));
   if (!failed_.empty()) parts.back() += fmt::format(" ({})", fmt::join(failed_, ","));
   if (left > 0) parts.push_back(fmt::format("{} not begun", left));
-  cli::print("frames: {}\n", fmt::join(parts, ", "));
+  cli::print("frames: {}\n", parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", ")));
 }
 
 }  // namespace rpf::cli

@@ -62,6 +62,9 @@ class FramePage {
     after_ = read_image(job.output, limit);
     if (!job.reference.empty()) reference_ = read_image(job.reference, limit);
     check_window();
+    // What is wrong with the images is told before the noise is measured, which takes long.
+    filtered_ = light("filtered", job.output, after_);
+    if (reference_) after_errors_ = errors_of(job.output, after_);
     noise_ = measure_noise(input_, job, image_bytes(after_) + (reference_ ? image_bytes(*reference_) : 0));
     window_ = is_whole() ? input_.info.data_window : after_.data_window;
     noise_.mean = cropped(noise_.mean, window_);
@@ -127,7 +130,8 @@ class FramePage {
   void add_viewer() {
     report::Viewer viewer;
     viewer.layers.push_back(light("plain mean", job_.input, noise_.mean));
-    viewer.layers.push_back(light("filtered", job_.output, after_));
+    filtered_.image.data_window = window_;
+    viewer.layers.push_back(std::move(filtered_));
     if (reference_) viewer.layers.push_back(light("reference", job_.reference, *reference_));
     viewer.layers.push_back(difference("what the filter changed", job_.output, after_, job_.input, noise_.mean));
     if (reference_) {
@@ -149,11 +153,11 @@ class FramePage {
     if (!reference_)
       return page_.paragraph("Without a reference nobody knows: rpf report IN OUT REFERENCE -o page.html.");
     page_.paragraph("Against " + name_of_file(job_.reference) + "; docs/commands.md has the definitions.");
-    const std::vector<double> before = errors_of(job_.input, noise_.mean), after = errors_of(job_.output, after_);
+    const std::vector<double> before = errors_of(job_.input, noise_.mean);
     report::Table table{{"error", "plain mean", "filtered"}, {}, 1};
     const char* names[] = {"relMSE", "trimmed relMSE", "MSE", "MAE", "energy", "PSNR", "SSIM", "FLIP", "HDR-FLIP"};
     for (std::size_t i = 0; i < before.size(); ++i)
-      table.rows.push_back({names[i], fmt::format("{:.4g}", before[i]), fmt::format("{:.4g}", after[i])});
+      table.rows.push_back({names[i], fmt::format("{:.4g}", before[i]), fmt::format("{:.4g}", after_errors_[i])});
     page_.table(table);
   }
 
@@ -276,6 +280,8 @@ class FramePage {
   report::HtmlPage page_;
   Image after_;
   std::optional<Image> reference_;
+  report::ViewerLayer filtered_;
+  std::vector<double> after_errors_;  ///< with a reference
   FrameNoise noise_;
   Window window_;  ///< of all pictures, in the input's coordinates
 };

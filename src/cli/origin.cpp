@@ -89,11 +89,14 @@ std::string hash_of_ends(const std::string& path) {
   return fmt::format("{}-{}", size, hash.text());
 }
 
-std::string hash_of_settings(const Settings& settings, const std::vector<std::string>& map) {
-  const std::string text = fmt::format("{} [{}]", text_of(settings), fmt::join(map, ","));
+std::string hash_of_text(const std::string& text) {
   Hash hash;
   hash.add(text.data(), text.size());
   return hash.text();
+}
+
+std::string hash_of_settings(const Settings& settings, const std::vector<std::string>& map) {
+  return hash_of_text(fmt::format("{} [{}]", text_of(settings), fmt::join(map, ",")));
 }
 
 void mark(Image& image, const Origin& origin) {

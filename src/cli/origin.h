@@ -20,6 +20,9 @@ struct Origin {
 /// The attributes that they stand in.
 constexpr const char *input_attribute = "rpf:inputHash", *settings_attribute = "rpf:settingsHash";
 
+/// Of a text.
+std::string hash_of_text(const std::string& text);
+
 /// Throws Error(input) where it cannot be read.
 std::string hash_of_file(const std::string& path);
 

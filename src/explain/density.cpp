@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "frame/sums_around.h"
@@ -111,10 +112,18 @@ void check_window(const SampleBuffer& frame, const Image& estimate) {
 
 void check_noise_is_told(const SampleBuffer& frame) {
   frame.validate();
-  for (std::size_t p = 0; p + 1 < frame.first_sample.size(); ++p)
-    if (frame.first_sample[p + 1] - frame.first_sample[p] > 1) return;
+  const std::size_t colors[] = {*frame.layout.find("R"), *frame.layout.find("G"), *frame.layout.find("B")};
+  const auto is_finite = [&](std::uint32_t sample) {
+    return std::all_of(std::begin(colors), std::end(colors),
+                       [&](std::size_t c) { return std::isfinite(frame.record(sample)[c]); });
+  };
+  for (std::size_t p = 0; p + 1 < frame.first_sample.size(); ++p) {
+    int finite = 0;
+    for (std::uint32_t i = frame.first_sample[p]; i < frame.first_sample[p + 1]; ++i) finite += is_finite(i) ? 1 : 0;
+    if (finite > 1) return;
+  }
   throw Error(ErrorKind::input,
-              "density: no pixel has two samples, which are needed to tell noise; render with 2 "
+              "density: no pixel has two samples of finite R, G and B, which are needed to tell noise; render with 2 "
               "samples a pixel or more");
 }
 

@@ -28,6 +28,18 @@ const T& attribute(const Metadata& metadata, const char* name, const char* type)
   return *value;
 }
 
+/// What was subtracted from positions; 0 where nothing was.
+Point origin_of(const Metadata& metadata) {
+  constexpr const char* name = "rpf:worldOrigin";
+  const auto found = metadata.find(name);
+  if (found == metadata.end()) return {};
+  const auto* origin = std::get_if<std::vector<float>>(&found->second);
+  const auto is_finite = [](float value) { return std::isfinite(value); };
+  if (origin == nullptr || origin->size() != 3 || !std::all_of(origin->begin(), origin->end(), is_finite))
+    throw Error(ErrorKind::input, fmt::format("attribute {} is no vector of 3 finite numbers; write it as v3f", name));
+  return {(*origin)[0], (*origin)[1], (*origin)[2]};
+}
+
 /// A column of a matrix that rows are multiplied with, for positions that rpf:worldOrigin was subtracted from.
 Row column_of(const Metadata& metadata, const char* name, std::size_t column) {
   const auto& matrix = attribute<std::vector<float>>(metadata, name, "m44f");
@@ -37,10 +49,8 @@ Row column_of(const Metadata& metadata, const char* name, std::size_t column) {
     throw Error(ErrorKind::input,
                 fmt::format("attribute {} is no matrix of 4 x 4 finite numbers; write it as m44f", name));
   Row row = {matrix[column], matrix[4 + column], matrix[8 + column], matrix[12 + column]};
-  const auto found = metadata.find("rpf:worldOrigin");
-  const auto* origin = found == metadata.end() ? nullptr : std::get_if<std::vector<float>>(&found->second);
-  for (std::size_t k = 0; origin != nullptr && k < std::min<std::size_t>(origin->size(), 3); ++k)
-    row[3] += row[k] * (*origin)[k];
+  const Point origin = origin_of(metadata);
+  for (std::size_t k = 0; k < 3; ++k) row[3] += row[k] * origin[k];
   return row;
 }
 

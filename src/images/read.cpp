@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 
 #include "io/attributes.h"
 #include "io/file_bytes.h"
@@ -46,7 +47,19 @@ void check_parts(const std::string& path) {
   reject(path,
          fmt::format("holds {} images{}, but one is needed, or the others would be lost; write each as a file, with "
                      "exrmultipart -separate or oiiotool",
-                     count > 1 ? std::to_string(count) : "several", printable(names)));
+                     count > 1 ? std::to_string(count) : "several", names));
+}
+
+// OpenEXR's integers are numbers of objects and samples; OpenImageIO would divide them by 2^32 as if they were colors.
+void check_types(const std::string& path, const oiio::ImageInput& input) {
+  if (std::string_view(input.format_name()) != "openexr") return;
+  const oiio::ImageSpec& spec = input.spec();
+  for (int c = 0; c < spec.nchannels; ++c) {
+    const std::string& name = spec.channelnames[c];
+    const bool is_used = c == 0 || name == "R" || name == "G" || name == "B" || name == "A";
+    if (is_used && spec.channelformat(c) == oiio::TypeUInt32)
+      reject(path, fmt::format("has integers in its channel {}; write float or half", name));
+  }
 }
 
 std::unique_ptr<oiio::ImageInput> open_image(const std::string& path) {
@@ -62,6 +75,7 @@ std::unique_ptr<oiio::ImageInput> open_image(const std::string& path) {
                              first_line(oiio::geterror())));
   check_parts(path);
   if (input->spec().deep) reject(path, "is a deep file, but a flat image is needed; filter the samples first");
+  check_types(path, *input);
   return input;
 }
 

@@ -89,9 +89,9 @@ void assign_mapped(const std::string& path, const std::vector<std::string>& chan
 void reject_conflict(const std::string& path, const std::string& slot, const std::string& first,
                      const std::string& second) {
   throw Error(ErrorKind::input,
-              printable(fmt::format("\"{0}\" has two channels for the slot {1}, \"{2}\" and \"{3}\"; choose one with "
-                                    "--map \"{1}={2}\" or --map \"{1}={3}\"",
-                                    path, slot, first, second)));
+              fmt::format("\"{0}\" has two channels for the slot {1}, \"{2}\" and \"{3}\"; choose one with "
+                          "--map \"{1}={2}\" or --map \"{1}={3}\"",
+                          path, slot, first, second));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ constexpr std::uint64_t chunk_header_bytes = 28;  // y, and the sizes of count t
 constexpr std::uint64_t max_expansion = 1032;
 
 [[noreturn]] void reject(const FileBytes& file, const std::string& what) {
-  throw Error(ErrorKind::input, printable(fmt::format("\"{}\" {}", file.path(), what)));
+  throw Error(ErrorKind::input, fmt::format("\"{}\" {}", file.path(), what));
 }
 
 [[noreturn]] void reject_damaged(const FileBytes& file, const std::string& what) {
@@ -114,6 +114,7 @@ void check_attribute_type(const FileBytes& file, const AttributeExtent& attribut
                                                                      {"version", {"int"}},
                                                                      {"chunkCount", {"int"}},
                                                                      {"maxSamplesPerPixel", {"int"}},
+                                                                     {"rpf:worldOrigin", {"v3f"}},
                                                                      {format_attribute, {"string"}},
                                                                      {version_attribute, {"int", "float", "double"}}};
   const auto expected = types.find(attribute.name);

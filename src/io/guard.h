@@ -11,13 +11,6 @@
 
 namespace rpf::io {
 
-/// `text` with ? for control characters: names from a damaged file must not break an error's line or steer a terminal.
-inline std::string printable(std::string text) {
-  for (char& letter : text)
-    if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) letter = '?';
-  return text;
-}
-
 /// Libraries collect their messages line by line; the first says what went wrong.
 inline std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -34,7 +27,7 @@ auto guard_input(const std::string& path, Work work) {
                 fmt::format("\"{}\" does not fit into the memory that is left; free memory or crop the file", path));
   } catch (const std::exception& error) {
     throw Error(ErrorKind::input, fmt::format("\"{}\" cannot be read ({}); copy or render the file again", path,
-                                              printable(first_line(error.what()))));
+                                              first_line(error.what())));
   }
 }
 

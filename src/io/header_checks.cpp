@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t listed_channels = 12;  // in an error text
 
 [[noreturn]] void reject(const std::string& path, const std::string& what) {
-  throw Error(ErrorKind::input, printable(fmt::format("\"{}\" {}", path, what)));
+  throw Error(ErrorKind::input, fmt::format("\"{}\" {}", path, what));
 }
 
 std::string channel_names(const std::vector<SampleFileChannel>& channels) {

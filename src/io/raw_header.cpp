@@ -25,7 +25,7 @@ constexpr std::int64_t farthest = (std::int64_t{1} << 30) - 2;  // of a pixel's 
 constexpr std::size_t alignment = 64;  // of the first plane: a cache line, for those who map the file
 
 [[noreturn]] void reject(const FileBytes& file, const std::string& what) {
-  throw Error(ErrorKind::input, printable(fmt::format("\"{}\" {}", file.path(), what)));
+  throw Error(ErrorKind::input, fmt::format("\"{}\" {}", file.path(), what));
 }
 
 [[noreturn]] void reject_key(const FileBytes& file, const std::string& key, const std::string& expected) {
@@ -157,7 +157,7 @@ void check_keys(const FileBytes& file, const Json& header) {
 // ---- writing
 
 [[noreturn]] void refuse(const std::string& path, const std::string& what) {
-  throw Error(ErrorKind::output, printable(fmt::format("\"{}\" cannot be written: {}", path, what)));
+  throw Error(ErrorKind::output, fmt::format("\"{}\" cannot be written: {}", path, what));
 }
 
 Json json_of(const Window& w) { return Json::array({w.x, w.y, w.width, w.height}); }

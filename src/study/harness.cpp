@@ -14,6 +14,7 @@
 #include "rpf/error.h"
 #include "rpf/filter.h"
 #include "rpf/io.h"
+#include "rpf/outputs.h"
 #include "rpf/scene.h"
 #include "study/findings.h"
 #include "study/open_image_denoise.h"
@@ -25,13 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-void make_folder(const fs::path& folder) {
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (failure)
-    throw Error(ErrorKind::output, fmt::format("folder \"{}\" cannot be made: {}", folder.string(), failure.message()));
-}
 
 /// What the run is called in file names: everything that its result depends on.
 std::string file_name_of(const Run& run) {
@@ -160,7 +154,7 @@ class Measuring {
                                  : filter(std::move(samples), settings, meter.control(work));
     const bench::Cost cost = clock.elapsed();
     meter.finish(work);
-    make_folder(folder_ / "images");
+    make_folder((folder_ / "images").string());
     write_image(image_of(run), result.image);
     Json line{{"label", run.label}, {"scene", run.frame.scene}, {"options", treatment_of(run)}};
     line["commands"] = commands_of(run);

@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 
 from command_case import RPF, CommandCase
-from small_files import write_exr
+from small_files import frame, write_exr, write_raw
 
 SIZE = ["--size", "64x36"]
 SCENE = [RPF, "scene", "dof", *SIZE, "-q", "--spp", "1", "--density", "{density}", "--seed", "{seed}", "-o", "{output}"]
@@ -121,6 +121,15 @@ class AdaptTest(CommandCase):
         self.expect(run("scene", "dof", *SIZE, "-q", "--spp", "1", "-o", self.file), 0)
         self.before = self.file.read_bytes()
         self.expect_refused(self.adapt(), 3, "no pixel has two samples")
+
+    def test_samples_without_a_finite_color_tell_no_noise(self):
+        channels, damaged = frame(), self.folder / "damaged.rpf"
+        samples = channels["G"].size
+        for lost, code, text in ((1, 0, "left out: R, G or B not finite: 1"), (samples, 3, "no pixel has two samples")):
+            channels["G"][:lost] = np.nan
+            write_raw(damaged, channels)
+            self.expect(run("density", damaged, "-o", self.folder / "density.exr"), code, text)
+            self.expect(run("adapt", damaged, "--until", "1e9", "--", *SCENE), code, text)
 
     def test_a_signal_ends_the_renderer_and_leaves_what_was_there(self):
         script = f"touch '{self.folder}/started'; exec sleep 60 {ALL_WORDS}"

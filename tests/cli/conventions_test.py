@@ -217,6 +217,18 @@ class ConventionsTest(CommandCase):
         write_exr(b, {f"left.{c}": v for c, v in picture.items()})
         self.expect(run("compare", b, a), 3, "no channel R", "left.R")
 
+    def test_integers_are_no_colors(self):
+        """OpenEXR's: OpenImageIO takes them for fractions of 2^32."""
+        whole, mixed = self.folder / "whole.exr", self.folder / "mixed.exr"
+        write_exr(whole, {name: np.full((6, 8), 3, np.uint32) for name in "RGB"})
+        write_exr(mixed, {**{name: np.full((6, 8), 0.5, np.float32) for name in "RGB"}, "id": np.full((6, 8), 3, np.uint32)})
+        before = whole.read_bytes()
+        self.expect(run("--method", "gaussian", whole, "-o", whole), 3, "integers", "channel", "float or half")
+        self.expect(run("compare", whole, whole), 3, "integers")
+        self.expect(run("scene", "dof", "--size", "8x6", "--density", whole, "-o", self.output), 3, "integers")
+        self.expect(run("compare", mixed, mixed), 0)
+        self.assertEqual(whole.read_bytes(), before)
+
     def test_metrics_of_one_place_are_as_before(self):
         picture = {c: np.full((H, W), 0.5, np.float32) for c in "RGB"}
         for name in "ab":

@@ -129,16 +129,14 @@ class Drivers(unittest.TestCase):
     def test_a_driver_that_ends_the_process(self):
         for name, fault in FAULTS.items():
             with self.subTest(name):
-                # A sanitizer would take the signal, and end the process in its own way.
-                broken = {**self.driver(fault), "ASAN_OPTIONS": "handle_segv=0:handle_sigfpe=0:handle_sigbus=0"}
+                broken = {**self.driver(fault), "ASAN_OPTIONS": "intercept_tls_get_addr=0:handle_segv=0:handle_sigfpe=0"}  # no end of its own
                 self.expect_cpu("this driver is broken", **broken)
                 self.expect(self.run_rpf("devices", **broken), 5, "this driver is broken", "--backend=cpu")
 
     def test_a_driver_that_prints_spoils_no_answer_of_another(self):
         """On standard output, where the child that asks both has its answer."""
         talking = self.driver(r'puts("5\nno device"); fflush(stdout)')
-        for file in Path("/etc/OpenCL/vendors").glob("pocl*.icd"):
-            shutil.copy(file, self.folder / "vendors")
+        shutil.copy("/etc/OpenCL/vendors/pocl.icd", self.folder / "vendors")
         self.expect(self.filter("opencl", **talking), 0)
         self.expect_same_bits()
         self.expect(self.run_rpf("devices", **talking), 0, "keeps the numeric contract")

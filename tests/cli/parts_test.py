@@ -1,4 +1,5 @@
 """One frame in parts: facts, rows, join; the file of the parts is that of the whole. Usage: parts_test.py RPF PROJECT"""
+import json
 import subprocess
 import unittest
 
@@ -113,9 +114,20 @@ class PartsTest(CommandCase):
         for frame, options, text in ((self.frame, PUBLISHED, "with other settings"), (self.frame, [*PRESET, "--features", "N"], "with other settings"),
                                      (other, PRESET, "is of another file")):
             self.expect(run(frame, "-o", self.folder / "out.exr", *options, "--facts", self.facts, "--rows", "0-9"), 3, text)
+        facts = json.loads(self.facts.read_text())
+        facts["facts"]["most_samples"] = 2
+        for text in ("{}", "[" * 100000, " " * (2 << 20), "", json.dumps(facts)):
+            self.facts.write_text(text)
+            self.expect(run(self.frame, "-o", self.folder / "out.exr", *PRESET, "--facts", self.facts), 3, "--facts", "rpf facts")
         self.facts.write_text("{}")
         self.expect(run(self.frame, "-o", self.folder / "out.exr", *PRESET, "--facts", self.facts), 3, "is none that rpf facts wrote")
         self.assertFalse((self.folder / "out.exr").exists())
+
+    def test_parts_that_could_not_be_joined_are_refused(self):
+        for name in ("out.png", "out.tif", "out"):
+            for dry_run in ([], ["--dry-run"]):
+                self.expect(run(self.frame, "-o", self.folder / name, *PRESET, "--rows", "1/2", *dry_run), 2, "--rows", name, ".exr")
+            self.assertFalse((self.folder / name).exists())
 
     def test_methods_that_need_the_whole_frame_refuse_parts(self):
         for method in ("nlm", "gem", "sbf", "axis-aligned", "lightfield", "multidim"):

@@ -35,11 +35,11 @@ def attribute(name, kind, value):
 
 
 def write_exr(path, channels, x0=0, y0=0, display=None, attributes=()):
-    """A flat image without compression. `channels`: [height, width] arrays of float16 or float32 by name;
+    """A flat image without compression. `channels`: [height, width] arrays of uint32, float16 or float32 by name;
     `attributes`: (name, type, bytes) beside the required ones."""
     names = sorted(channels)
     height, width = channels[names[0]].shape
-    kinds = {np.dtype("float16"): 1, np.dtype("float32"): 2}
+    kinds = {np.dtype("uint32"): 0, np.dtype("float16"): 1, np.dtype("float32"): 2}
     table = b"".join(n.encode() + b"\0" + struct.pack("<iiii", kinds[channels[n].dtype], 0, 1, 1) for n in names) + b"\0"
     window = struct.pack("<4i", x0, y0, x0 + width - 1, y0 + height - 1)
     shown = window if display is None else struct.pack("<4i", *display)

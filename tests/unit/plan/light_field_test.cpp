@@ -68,6 +68,11 @@ TEST(LightField, RefusesWhatItCannotBeWithout) {
     wrong.metadata[name] = -1.0F;
     expect_refused(wrong, name);
   }
+  for (const Attribute& origin : {Attribute("1 2 3"), Attribute(std::vector<float>{1, 2}), Attribute(1.0F)}) {
+    SampleBuffer wrong = samples;
+    wrong.metadata["rpf:worldOrigin"] = origin;
+    expect_refused(wrong, "rpf:worldOrigin");
+  }
   for (const char* slot : {"feature.P.Y", "feature.opening.X", "feature.closing.Z"}) {
     std::vector<std::string> slots = samples.layout.slots;
     slots.erase(std::find(slots.begin(), slots.end(), slot));
