@@ -157,6 +157,17 @@ class ReportTest(CommandCase):
         self.assertTrue(np.isinf(values).any())
         np.testing.assert_allclose(ReportPage(self.page).values("filtered"), values, rtol=2.0 ** -13, atol=1e-38)
 
+    def test_images_that_do_not_fit_are_refused_before_the_noise_is_measured(self):
+        small, narrow = self.folder / "small.exr", self.folder / "narrow.exr"
+        gray = np.full((24, 40), 0.5, np.float32)
+        small_files.write_exr(small, {name: gray[:10, :10] for name in "RGB"})
+        small_files.write_exr(narrow, {"Y": gray})
+        for files, text in (((self.output, small), "small.exr"), ((narrow,), "narrow.exr"), ((self.output, narrow), "narrow.exr")):
+            result = run("report", self.samples, *files, "-o", self.page, "--progress", "always")
+            self.expect(result, 3, text)
+            self.assertNotIn("attributing", result.stderr)
+            self.assertFalse(self.page.exists())
+
     def test_errors_name_the_file_and_leave_nothing(self):
         other = self.folder / "other.exr"
         self.expect(run("scene", "dof", "--size", "44x24", "--reference", 2, "-o", other, "-q"), 0)
