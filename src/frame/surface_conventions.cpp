@@ -104,6 +104,51 @@ class AlbedoCheck : public SampleCheck {
   Guess bytes_{"which look like 0 to 255; divide by 255"};
 };
 
+/// A vector of which some components are not there. Of every sample, so the first pixel is the first that has one.
+class IncompleteCheck : public SampleCheck {
+ public:
+  explicit IncompleteCheck(std::string what) : what_(std::move(what)) {}
+
+  void look(const ColumnBlock& /*records*/, const PixelCorners& /*corners*/, BlockMask& odd) const override {
+    for (std::int32_t& each : odd) each = 1;
+  }
+
+  void add(const float* /*record*/, std::size_t pixel) override { incomplete_.add(pixel); }
+
+  void tell(const Window& data_window, std::vector<InputNote>& notes) const override {
+    incomplete_.tell(what_, data_window, notes);
+  }
+
+ private:
+  std::string what_;
+  Tally incomplete_;
+};
+
+class HitCheck : public SampleCheck {
+ public:
+  explicit HitCheck(std::size_t column) : column_(column) {}
+
+  void look(const ColumnBlock& records, const PixelCorners& /*corners*/, BlockMask& odd) const override {
+    const float* hit = records[column_];
+    for (std::size_t i = 0; i < block_records; ++i)
+      odd[i] |= static_cast<std::int32_t>(hit[i] != 0) & static_cast<std::int32_t>(hit[i] != 1);
+  }
+
+  void add(const float* record, std::size_t pixel) override {
+    const float hit = record[column_];
+    if (hit != 0 && hit != 1 && !std::isnan(hit)) odd_.add(pixel);  // what is missing is told as such
+  }
+
+  void tell(const Window& data_window, std::vector<InputNote>& notes) const override {
+    odd_.tell("values of hit that are neither 0 nor 1, taken for 1; write 1 where a surface is hit, else 0",
+              data_window, notes);
+  }
+
+ private:
+  std::size_t column_;
+  Tally odd_;
+};
+
 /// Neighbors on a surface differ in directions that its normal is at right angles to. Where most do not, positions and
 /// normals are of two spaces: world and camera.
 class SpaceCheck : public PixelCheck {
@@ -146,10 +191,25 @@ class SpaceCheck : public PixelCheck {
   std::vector<std::size_t> normal_, position_;
 };
 
+/// Vectors that lack a component. One that is alone is a number of its own, such as a gray albedo.
+void add_incomplete_checks(const SampleLayout& layout, ConventionChecks& checks) {
+  for (const auto& [group, letters] :
+       {std::pair{"N", "XYZ"}, {"P", "XYZ"}, {"albedo", "RGB"}, {"N2", "XYZ"}, {"P2", "XYZ"}}) {
+    std::string missing;
+    for (const char* letter = letters; *letter != '\0'; ++letter)
+      if (!layout.find(fmt::format("feature.{}.{}", group, *letter))) missing += *letter;
+    if (missing.size() == 1)
+      checks.of_samples.push_back(std::make_unique<IncompleteCheck>(fmt::format(
+          "samples of {} without {}, which presets leave out whole; write all of {}", group, missing, letters)));
+  }
+}
+
 }  // namespace
 
 void add_surface_checks(const SampleBuffer& samples, ConventionChecks& checks) {
   const SampleLayout& layout = samples.layout;
+  add_incomplete_checks(layout, checks);
+  if (const auto hit = layout.find("feature.hit")) checks.of_samples.push_back(std::make_unique<HitCheck>(*hit));
   for (const std::string group : {"N", "Ns", "Ng", "N2"})
     if (auto columns = columns_of(layout, "feature." + group, "XYZ"); !columns.empty())
       checks.of_samples.push_back(std::make_unique<NormalCheck>(layout, group, std::move(columns)));

@@ -101,6 +101,19 @@ class ConventionsTest(CommandCase):
         channels["random.lens.U"] = 7 * channels["random.lens.V"] + 2
         self.expect_note(channels, "random numbers outside 0 to 1 (random.lens.U)", f": {W * H * SPP} (first at pixel 0,0)", "in [0,1)")
 
+    def test_vectors_that_are_not_whole(self):
+        for left_out, text in (("feature.N.Z", "samples of N without Z"), ("feature.albedo.R", "samples of albedo without R")):
+            channels = {name: values for name, values in frame().items() if name != left_out}
+            self.expect_note(channels, text, "write all of", f": {W * H * SPP} (first at pixel 0,0)")
+        gray = {name: values for name, values in frame().items() if name not in ("feature.albedo.G", "feature.albedo.B")}
+        self.assertEqual(self.notes(gray), [])
+
+    def test_hits(self):
+        channels = {**frame(), "feature.hit": np.ones(W * H * SPP, np.float32)}
+        self.assertEqual(self.notes(channels), [])
+        channels["feature.hit"][SPP * (2 * W + 3)] = 0.5
+        self.expect_note(channels, "values of hit that are neither 0 nor 1", ": 1 (first at pixel 3,2)")
+
     def test_normals(self):
         for text, change in {"2 N - 1": lambda n: (n + 1) / 2, "unit vectors": lambda n: 3 * n}.items():
             channels = frame()
