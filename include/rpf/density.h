@@ -17,6 +17,9 @@ Image sample_density(const SampleBuffer& frame, int samples);
 /// noise ask for. Throws Error(input) where the channel is missing or the data windows differ.
 Image sample_density(const SampleBuffer& frame, int samples, const Image& estimate);
 
+/// How many samples the functions of this header leave out, as their R, G or B is not finite.
+std::size_t count_not_finite(const SampleBuffer& frame);
+
 /// The relMSE that the plain mean of the samples has, estimated from their variance around each pixel: without what all
 /// of them miss, such as a light that none has found. Pixels without samples are left out. Throws Error(input) where no
 /// pixel has two samples.

@@ -41,6 +41,9 @@ void check_target(const std::string& path);
 /// Bits of a value in an image with this name: 8, or 32 of a float. Throws Error(output) for an unknown extension.
 int stored_bits(const std::string& path);
 
+/// Whether an image with this name is OpenEXR, the only format that keeps windows and attributes.
+bool is_openexr(const std::string& path);
+
 /// Whether an image with this name can have an alpha. Throws Error(output) for an unknown extension.
 bool stores_alpha(const std::string& path);
 

@@ -4,12 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <iterator>
 #include <vector>
 
 #include "cli/print.h"
+#include "rpf/density.h"
 #include "rpf/error.h"
 #include "rpf/outputs.h"
 
@@ -47,14 +45,8 @@ void tell_dropped(const SampleFileInfo& info) {
 }
 
 void tell_not_finite(const SampleBuffer& samples) {
-  const std::size_t colors[] = {*samples.layout.find("R"), *samples.layout.find("G"), *samples.layout.find("B")};
-  std::uint64_t count = 0;
-  for (std::size_t i = 0; i < samples.sample_count(); ++i) {
-    const float* record = samples.record(i);
-    const auto is_finite = [&](std::size_t c) { return std::isfinite(record[c]); };
-    count += std::all_of(std::begin(colors), std::end(colors), is_finite) ? 0 : 1;
-  }
-  if (count > 0) remark("rpf: note: samples left out: R, G or B not finite: {}\n", count);
+  if (const std::size_t count = count_not_finite(samples); count > 0)
+    remark("rpf: note: samples left out: R, G or B not finite: {}\n", count);
 }
 
 void check_in_place(const SampleFileInfo& info, const std::string& output) {

@@ -13,7 +13,7 @@ SampleFileInfo as_image(SampleFileInfo info, const std::string& output);
 /// One remark that lists channels without a slot and attributes of unknown types; nothing where there are none.
 void tell_dropped(const SampleFileInfo& info);
 
-/// One remark that counts samples whose color is not finite, of which filters and densities make nothing.
+/// One remark that counts samples whose color is not finite, of which densities make nothing.
 void tell_not_finite(const SampleBuffer& samples);
 
 /// Throws Error(usage) where `output` would replace the file and something of it would be dropped, or would be stored

@@ -143,8 +143,7 @@ void check_features(const FilterOptions& options, const SampleFileInfo& info) {
 
 /// What rpf join needs to know of a part stands in attributes of OpenEXR.
 void check_part_name(const FilterOptions& options) {
-  const std::string extension = std::filesystem::path(options.output).extension().string();
-  if (!options.rows.empty() && !options.output.empty() && extension != ".exr" && extension != ".EXR")
+  if (!options.rows.empty() && !options.output.empty() && !is_openexr(options.output))
     throw Error(ErrorKind::usage, fmt::format("--rows: \"{}\" could not be joined with the other parts; name an .exr "
                                               "file",
                                               options.output));

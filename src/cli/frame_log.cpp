@@ -56,9 +56,10 @@ std::string json_of(const FrameOutcome& o) {
 
 FrameLog::FrameLog(const std::string& path, bool quiet) : path_(path), quiet_(quiet) {
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // for whoever watches a long run
-  if (!path.empty()) check_target(path);
-  if (!path.empty()) file_.reset(std::fopen(path.c_str(), "a"));
-  if (!path.empty() && !file_) refuse(path);
+  if (path.empty()) return;
+  check_target(path);
+  file_.reset(std::fopen(path.c_str(), "a"));
+  if (!file_) refuse(path);
 }
 
 void FrameLog::add(const FrameOutcome& outcome) {

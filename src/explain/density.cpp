@@ -110,18 +110,22 @@ void check_window(const SampleBuffer& frame, const Image& estimate) {
                           text_of(estimate.data_window), text_of(frame.data_window)));
 }
 
+/// Of the samples from `begin` to `end`.
+std::size_t count_finite(const SampleBuffer& frame, std::size_t begin, std::size_t end) {
+  const std::size_t colors[] = {*frame.layout.find("R"), *frame.layout.find("G"), *frame.layout.find("B")};
+  std::size_t count = 0;
+  for (std::size_t i = begin; i < end; ++i)
+    count += std::all_of(std::begin(colors), std::end(colors),
+                         [&](std::size_t c) { return std::isfinite(frame.record(i)[c]); })
+                 ? 1
+                 : 0;
+  return count;
+}
+
 void check_noise_is_told(const SampleBuffer& frame) {
   frame.validate();
-  const std::size_t colors[] = {*frame.layout.find("R"), *frame.layout.find("G"), *frame.layout.find("B")};
-  const auto is_finite = [&](std::uint32_t sample) {
-    return std::all_of(std::begin(colors), std::end(colors),
-                       [&](std::size_t c) { return std::isfinite(frame.record(sample)[c]); });
-  };
-  for (std::size_t p = 0; p + 1 < frame.first_sample.size(); ++p) {
-    int finite = 0;
-    for (std::uint32_t i = frame.first_sample[p]; i < frame.first_sample[p + 1]; ++i) finite += is_finite(i) ? 1 : 0;
-    if (finite > 1) return;
-  }
+  for (std::size_t p = 0; p + 1 < frame.first_sample.size(); ++p)
+    if (count_finite(frame, frame.first_sample[p], frame.first_sample[p + 1]) > 1) return;
   throw Error(ErrorKind::input,
               "density: no pixel has two samples of finite R, G and B, which are needed to tell noise; render with 2 "
               "samples a pixel or more");
@@ -208,6 +212,10 @@ Image sample_density(const SampleBuffer& frame, int samples, const Image& estima
   Values wanted = wanted_samples(frame);
   for (std::size_t p = 0; p < wanted.size(); ++p) wanted[p] = std::sqrt(wanted[p] * for_method[p]);
   return density_of(frame, wanted, counts, samples);
+}
+
+std::size_t count_not_finite(const SampleBuffer& frame) {
+  return frame.sample_count() - count_finite(frame, 0, frame.sample_count());
 }
 
 double mean_error(const SampleBuffer& frame) {

@@ -71,6 +71,8 @@ void check_target(const std::string& path) { io::output_place(path); }
 
 int stored_bits(const std::string& path) { return io::format_of(path).encoding == io::Encoding::srgb_bytes ? 8 : 32; }
 
+bool is_openexr(const std::string& path) { return io::extension_of(path) == ".exr"; }
+
 bool stores_alpha(const std::string& path) { return io::format_of(path).alpha; }
 
 void make_folder(const std::string& path) {

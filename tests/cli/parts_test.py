@@ -128,6 +128,7 @@ class PartsTest(CommandCase):
             for dry_run in ([], ["--dry-run"]):
                 self.expect(run(self.frame, "-o", self.folder / name, *PRESET, "--rows", "1/2", *dry_run), 2, "--rows", name, ".exr")
             self.assertFalse((self.folder / name).exists())
+        self.expect(run(self.frame, "-o", self.folder / "out.Exr", *PRESET, "--rows", "1/2", "--dry-run"), 0)
 
     def test_methods_that_need_the_whole_frame_refuse_parts(self):
         for method in ("nlm", "gem", "sbf", "axis-aligned", "lightfield", "multidim"):
