@@ -87,11 +87,12 @@ class Run:
         self.optimizer.load_state_dict(state["optimizer"])
         self.average, self.step, self.seconds = state["average"], state["step"], state["seconds"]
         self.rng.bit_generator.state = state["rng"]
+        torch.set_rng_state(state["torch_rng"])
 
     def save(self):
         state = dict(network=self.network.state_dict(), optimizer=self.optimizer.state_dict(), average=self.average, step=self.step,
-                     seconds=self.seconds, rng=self.rng.bit_generator.state, channels=self.network.channels,
-                     sample_features=self.network.sample_features, seed=self.args.seed, torch=torch.__version__)
+                     seconds=self.seconds, rng=self.rng.bit_generator.state, torch_rng=torch.get_rng_state(),
+                     channels=self.network.channels, sample_features=self.network.sample_features, seed=self.args.seed, torch=torch.__version__)
         torch.save(state, self.folder / "checkpoint.tmp")
         (self.folder / "checkpoint.tmp").replace(self.folder / "checkpoint.pt")
 
