@@ -49,7 +49,8 @@ struct Settings {
   /// Of learned: the name of a network in the library (presets.h), or a network file.
   std::string model = "balanced";
   std::string backend = "cpu";  ///< one of backend_names()
-  std::string device;           ///< OpenCL device: index or part of a name (devices.h); empty: the first
+  /// OpenCL device: index or part of a name (devices.h); empty: the first. "auto" then insists on it.
+  std::string device;
   Profile profile = Profile::thesis;
 
   /// One pass per entry: odd box widths, 1 .. 255 pixels. Empty: no pass, the result is the plain mean of the samples.

@@ -112,13 +112,11 @@ std::vector<PlannedOutput> planned_outputs(const FilterOptions& options, const F
 
 /// Of one frame: the place for a frame's number would become a part of each name.
 void check_names(const FilterOptions& options) {
-  const std::pair<const char*, const std::string*> files[] = {
-      {"-o", &options.output}, {"--aov", &options.aov}, {"--report", &options.report}, {"--facts", &options.facts}};
-  for (const auto& [option, text] : files)
-    if (FramePattern(*text).has_place())
+  for (const FrameFile& file : frame_files)
+    if (FramePattern(options.*file.path).has_place())
       throw Error(ErrorKind::usage, fmt::format("{} {}: has a place for the number of a frame, but \"{}\" is one file; "
                                                 "name one file, or the input with a place too, such as in.####.exr",
-                                                option, *text, options.input));
+                                                file.option, options.*file.path, options.input));
 }
 
 void check_usage(const FilterOptions& options) {

@@ -176,18 +176,21 @@ void add_channel_options(CLI::App& app, FilterOptions& o) {
       ->default_str("lens,time,light,bsdf; of the profiles lens,time,light, with pixel in thesis");
 }
 
+std::array<CLI::Option*, 2> add_backend_options(CLI::App& app, std::string& backend, std::string& device) {
+  return {
+      app.add_option(
+             "--backend", backend,
+             "cpu: the scalar reference; opencl: the same bits, faster; auto: opencl where a device passes its test")
+          ->check(one_of(backend_names(), "RPF_BACKEND"))
+          ->envname("RPF_BACKEND")
+          ->capture_default_str(),
+      app.add_option("-d,--device", device, "OpenCL device: index of `rpf devices` or a part of its name")
+          ->envname("RPF_DEVICE")};
+}
+
 void add_machine_options(CLI::App& app, FilterOptions& o) {
   const std::string group = "Running";
-  app.add_option(
-         "--backend", o.settings.backend,
-         "cpu: the scalar reference; opencl: the same bits, faster; auto: opencl where a device passes its test")
-      ->check(one_of(backend_names(), "RPF_BACKEND"))
-      ->envname("RPF_BACKEND")
-      ->capture_default_str()
-      ->group(group);
-  app.add_option("-d,--device", o.settings.device, "OpenCL device: index of `rpf devices` or a part of its name")
-      ->envname("RPF_DEVICE")
-      ->group(group);
+  for (CLI::Option* option : add_backend_options(app, o.settings.backend, o.settings.device)) option->group(group);
   restrict_to(app.add_option("-t,--threads", o.settings.threads, "Threads; all cores if not given"), ranges::threads,
               "RPF_NUM_THREADS")
       ->group(group);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,10 +29,23 @@ struct FilterOptions {
   FilterOptions() { settings.backend = "auto"; }
 };
 
+/// An option that names a file of one frame; in a sequence its name has a place for the frame's number.
+struct FrameFile {
+  const char* option;
+  std::string FilterOptions::*path;
+  bool is_result;
+};
+constexpr FrameFile frame_files[] = {{"-o", &FilterOptions::output, true},
+                                     {"--aov", &FilterOptions::aov, true},
+                                     {"--report", &FilterOptions::report, true},
+                                     {"--facts", &FilterOptions::facts, false}};
+
 /// Which features and random parameters to model.
 void add_channel_options(CLI::App& app, FilterOptions& options);
 /// "--preset", one of those that there are.
 void add_preset_option(CLI::App& app, std::string& preset);
+/// "--backend" and "--device".
+std::array<CLI::Option*, 2> add_backend_options(CLI::App& app, std::string& backend, std::string& device);
 /// Backend, threads, memory, what is told.
 void add_machine_options(CLI::App& app, FilterOptions& options);
 /// "--max-memory", shared by the commands that read; memory_limit() takes what it says.

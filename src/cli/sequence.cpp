@@ -58,10 +58,8 @@ std::vector<FrameTask> tasks_of(const FilterOptions& filter, const SequenceOptio
   for (const int number : numbers_of(input, filter, o)) {
     FrameTask task{std::to_string(number), filter};
     task.options.input = input.path_of(number);
-    task.options.output = frame_path("-o", filter.output, number);
-    task.options.aov = frame_path("--aov", filter.aov, number);
-    task.options.report = frame_path("--report", filter.report, number);
-    task.options.facts = frame_path("--facts", filter.facts, number);
+    for (const FrameFile& file : frame_files)
+      task.options.*file.path = frame_path(file.option, filter.*file.path, number);
     tasks.push_back(task);
   }
   return tasks;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <utility>
 
 #include "cli/filter_input.h"
 #include "rpf/error.h"
@@ -14,15 +13,6 @@ namespace {
 
 /// Who has a file, by file_identity().
 using Owners = std::map<std::string, std::string>;
-
-std::vector<std::pair<const char*, std::string>> results_of(const FilterOptions& options) {
-  std::vector<std::pair<const char*, std::string>> results;
-  for (auto& result : {std::pair<const char*, std::string>{"-o", options.output},
-                       {"--aov", options.aov},
-                       {"--report", options.report}})
-    if (!result.second.empty()) results.push_back(result);
-  return results;
-}
 
 Owners readers_of(const std::vector<FrameTask>& tasks, const std::vector<std::string>& inputs) {
   Owners readers;
@@ -49,21 +39,23 @@ void check_sequence_files(const std::vector<FrameTask>& tasks, const std::vector
   Owners writers;
   for (const FrameTask& task : tasks) {
     const std::string name = "frame " + task.name;
-    for (const auto& [option, path] : results_of(task.options)) {
+    for (const FrameFile& file : frame_files) {
+      const std::string& path = task.options.*file.path;
+      if (path.empty() || !file.is_result) continue;
       const std::string identity = file_identity(path);
       const auto reader = readers.find(identity);
       if (reader != readers.end() && reader->second != name)
         throw Error(ErrorKind::usage,
                     fmt::format("{} of frame {}: \"{}\" is what {} reads, and would be lost; name results so that no "
                                 "frame's is a file of another",
-                                option, task.name, path, reader->second));
+                                file.option, task.name, path, reader->second));
       const auto [writer, is_new] = writers.emplace(identity, name);
       if (!is_new && writer->second != name)  // of one frame they are compared with all else that it writes
         throw Error(
             ErrorKind::usage,
             fmt::format("{} of frame {}: \"{}\" is written by {} too; name results so that no frame's is a file "
                         "of another",
-                        option, task.name, path, writer->second));
+                        file.option, task.name, path, writer->second));
     }
   }
   check_log(log, readers, writers);

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <tuple>
 
 #include "cli/bench.h"
-#include "cli/choices.h"
 #include "cli/commands.h"
 #include "cli/filter_options.h"
 #include "cli/numbers.h"
@@ -28,7 +28,7 @@ struct Options {
 
 study::Extent extent_of(const Options& o, const study::Experiment& experiment) {
   study::Extent extent = experiment.full;
-  if (o.quick) extent = {192, 108, 256, true};
+  if (o.quick) extent = {std::min(192, extent.width), std::min(108, extent.height), 256, true};
   if (!o.size.empty()) std::tie(extent.width, extent.height) = size_of(o.size);
   return extent;
 }
@@ -111,14 +111,9 @@ Command add_study_command(CLI::App& app) {
   command->add_flag("--quick", options->quick, "Smaller pictures and fewer points: under two minutes each");
   command
       ->add_option("--size", options->size,
-                   "Pixels of the scenes; 320x180, contemporaries 160x90 and quick 192x108 if not given")
+                   "Pixels of the scenes; 320x180, contemporaries 160x90, others 192x108 if quick")
       ->type_name("WxH");
-  command->add_option("--backend", options->backend, "As for filtering; changes the time, never a bit")
-      ->check(one_of(backend_names(), "RPF_BACKEND"))
-      ->envname("RPF_BACKEND")
-      ->capture_default_str();
-  command->add_option("-d,--device", options->device, "OpenCL device: index of `rpf devices` or a part of its name")
-      ->envname("RPF_DEVICE");
+  add_backend_options(*command, options->backend, options->device);
   restrict_to(command->add_option("-t,--threads", options->threads, "Threads; all cores if not given"), ranges::threads,
               "RPF_NUM_THREADS");
   return [options] { return run(*options); };

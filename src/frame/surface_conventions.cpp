@@ -104,24 +104,22 @@ class AlbedoCheck : public SampleCheck {
   Guess bytes_{"which look like 0 to 255; divide by 255"};
 };
 
-/// A vector of which some components are not there. Of every sample, so the first pixel is the first that has one.
-class IncompleteCheck : public SampleCheck {
+/// A vector of which some components are not there: in all pixels.
+class IncompleteCheck : public PixelCheck {
  public:
   explicit IncompleteCheck(std::string what) : what_(std::move(what)) {}
 
-  void look(const ColumnBlock& /*records*/, const PixelCorners& /*corners*/, BlockMask& odd) const override {
-    for (std::int32_t& each : odd) each = 1;
+  void look(const SampleBuffer& /*rows*/, std::size_t /*place*/, std::size_t pixel,
+            PixelFindings& found) const override {
+    found.wrong.add(pixel);
   }
 
-  void add(const float* /*record*/, std::size_t pixel) override { incomplete_.add(pixel); }
-
-  void tell(const Window& data_window, std::vector<InputNote>& notes) const override {
-    incomplete_.tell(what_, data_window, notes);
+  void tell(const PixelFindings& found, const Window& data_window, std::vector<InputNote>& notes) const override {
+    found.wrong.tell(what_, data_window, notes);
   }
 
  private:
   std::string what_;
-  Tally incomplete_;
 };
 
 class HitCheck : public SampleCheck {
@@ -199,8 +197,8 @@ void add_incomplete_checks(const SampleLayout& layout, ConventionChecks& checks)
     for (const char* letter = letters; *letter != '\0'; ++letter)
       if (!layout.find(fmt::format("feature.{}.{}", group, *letter))) missing += *letter;
     if (missing.size() == 1)
-      checks.of_samples.push_back(std::make_unique<IncompleteCheck>(fmt::format(
-          "samples of {} without {}, which presets leave out whole; write all of {}", group, missing, letters)));
+      checks.of_pixels.push_back(std::make_unique<IncompleteCheck>(fmt::format(
+          "pixels of {} without {}, which presets leave out whole; write all of {}", group, missing, letters)));
   }
 }
 

@@ -16,6 +16,9 @@ std::unique_ptr<Backend> make_opencl(const Settings& settings) {
   return std::make_unique<OpenClBackend>(OpenClOptions{settings.device, thread_count(settings), 0});
 }
 
+/// Whether the reference may stand in for OpenCL: not for a device that somebody named.
+bool may_be_replaced(const Settings& settings) { return settings.backend == "auto" && settings.device.empty(); }
+
 /// The reference in place of OpenCL, whose error is `e`; other errors than a device's are passed on.
 std::unique_ptr<Backend> make_replacement(const Settings& settings, const Error& e) {
   if (e.kind() != ErrorKind::device) throw;
@@ -26,6 +29,7 @@ std::unique_ptr<Backend> make_best(const Settings& settings) {
   try {
     return make_opencl(settings);
   } catch (const Error& e) {
+    if (!may_be_replaced(settings)) throw;
     return make_replacement(settings, e);
   }
 }
@@ -37,7 +41,7 @@ void get_ready_or_replace(std::unique_ptr<Backend>& backend, const Settings& set
   try {
     get_ready([&] { meter.check_compiling(); });
   } catch (const Error& e) {
-    if (settings.backend != "auto") throw;
+    if (!may_be_replaced(settings)) throw;
     backend = make_replacement(settings, e);
   }
 }
