@@ -79,6 +79,12 @@ std::string list(const std::string& before) {
   return text + fmt::format("{}{:<16} {}", before, "all", "all of them, and a page that leads to theirs");
 }
 
+void run_named(const Options& o) {
+  if (o.name != "all") return run_one(o, study::find_experiment(o.name));
+  for (const study::Experiment& experiment : study::experiments()) run_one(o, experiment);
+  write_index(o);
+}
+
 int run(const Options& o) {
   if (o.name.empty()) {
     print("{}\n", list(""));
@@ -88,12 +94,14 @@ int run(const Options& o) {
   if (o.folder.empty())
     throw Error(ErrorKind::usage, "study: no output; name the folder to write to with -o, as in -o study");
   const SignalGuard guard;
-  if (o.name != "all") {
-    run_one(o, study::find_experiment(o.name));
-    return 0;
+  try {
+    run_named(o);
+  } catch (const Error& e) {
+    if (e.kind() != ErrorKind::cancelled) throw;
+    throw Error(
+        ErrorKind::cancelled,
+        fmt::format("stopped; what was measured is in \"{}\", and the same command goes on from there", o.folder));
   }
-  for (const study::Experiment& experiment : study::experiments()) run_one(o, experiment);
-  write_index(o);
   return 0;
 }
 

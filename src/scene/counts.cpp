@@ -13,10 +13,11 @@ namespace {
 constexpr std::uint32_t counts_key = 0xc0117500U;  // apart from everything else that the seed decides
 
 void check_density(const Image& density, const SceneOptions& options) {
-  if (density.data_window.width != options.width || density.data_window.height != options.height)
+  const Window frame{0, 0, options.width, options.height};
+  if (!(density.data_window == frame))
     throw Error(ErrorKind::usage,
-                fmt::format("scene: the density image has {}x{} pixels; the frame's {}x{} are expected",
-                            density.data_window.width, density.data_window.height, options.width, options.height));
+                fmt::format("scene: the density image has the data window {}; the frame's {} is expected",
+                            text_of(density.data_window), text_of(frame)));
   for (std::size_t p = 0; p < density.data_window.pixel_count(); ++p)
     if (const float value = density.pixel(p)[0]; !std::isfinite(value) || value < 0)
       throw Error(ErrorKind::usage, fmt::format("scene: the density image has the value {} in pixel {},{}; a finite "

@@ -104,7 +104,7 @@ class ConventionsTest(CommandCase):
     def test_vectors_that_are_not_whole(self):
         for left_out, text in (("feature.N.Z", "pixels of N without Z"), ("feature.albedo.R", "pixels of albedo without R")):
             channels = {name: values for name, values in frame().items() if name != left_out}
-            self.expect_note(channels, text, "write all of", f": {W * H * SPP} (first at pixel 0,0)")
+            self.expect_note(channels, text, "write all of", f": {W * H} (first at pixel 0,0)")
         gray = {name: values for name, values in frame().items() if name not in ("feature.albedo.G", "feature.albedo.B")}
         self.assertEqual(self.notes(gray), [])
 

@@ -140,7 +140,7 @@ class StudyTest(CommandCase):
             self.assertIsNone(process.poll())
             time.sleep(0.01)
         process.send_signal(signal.SIGINT)
-        self.assertIn(b"cancelled", process.communicate()[1])
+        self.assertIn(b"the same command goes on from there", process.communicate()[1])
         self.assertEqual(process.returncode, 130)
         self.assertFalse((self.study / "passes.html").exists())
         self.assertFalse([file for file in self.study.rglob(".*")], "no temporary file is left")

@@ -232,8 +232,12 @@ TEST(Scene, DensityDecidesTheCounts) {
   EXPECT_NEAR(samples.sample_count(), 8 + 1.5 * 348, 40);  // four standard deviations
   options.density->pixels[5] = -1;
   EXPECT_THROW(render_scene("dof", options), rpf::Error);
-  options.density->data_window.width = 5;
-  EXPECT_THROW(render_scene("dof", options), rpf::Error);
+  options.density->pixels[5] = 1;
+  EXPECT_NO_THROW(render_scene("dof", options));
+  for (const rpf::Window& other : {rpf::Window{0, 0, 5, 14}, {1, 0, 25, 14}, {0, -3, 25, 14}}) {
+    options.density->data_window = other;
+    EXPECT_THROW(render_scene("dof", options), rpf::Error);
+  }
 }
 
 TEST(Scene, WorldScaleAndOffsetMovePositionsAndNothingElse) {
