@@ -114,7 +114,7 @@ def quieter(samples, reference, rng):
 
 def noisier(samples, rng):
     """Keeps a sample's radiance with a probability, and divides by it (Russian roulette): noise of worse samplers, of the same mean."""
-    if rng.random() < 0.2:
+    if rng.random() < 0.35:
         keep = 2.0 ** -float(rng.uniform(0, 4))
         color = samples[SAMPLE["color"]]
         color *= (torch.rand(1, *color.shape[1:]) < keep) / keep
