@@ -19,6 +19,8 @@ ALBEDO = [f"feature.albedo.{c}" for c in "RGB"]
 RANDOM = ["random.lens.U", "random.lens.V", "random.time", "film.X", "film.Y", "random.light.U", "random.light.V",
           "random.bsdf.U", "random.bsdf.V"]
 
+BLOCK = 8  # pixels that brightness is measured of together
+
 
 def lower_median(values):
     return np.partition(values, (len(values) - 1) // 2)[(len(values) - 1) // 2]
@@ -26,9 +28,12 @@ def lower_median(values):
 
 def brightness(color):
     """B of docs/network.md, of radiance [n, y, x, 3]."""
-    luminance = np.maximum(color.astype(np.float64).sum(-1).mean(0) / 3, 0).ravel()
-    positive = luminance[luminance > 0]
-    return np.minimum(luminance, 8 * lower_median(positive)).mean() if len(positive) else 0.0
+    luminance = np.maximum(color.astype(np.float64).sum(-1).mean(0) / 3, 0)
+    sums = lambda plane: np.add.reduceat(np.add.reduceat(plane, range(0, plane.shape[0], BLOCK), 0), range(0, plane.shape[1], BLOCK), 1)
+    pixels = sums(np.ones_like(luminance))
+    means = sums(luminance) / pixels
+    positive = means[means > 0]
+    return (pixels * np.minimum(means, 8 * lower_median(positive))).sum() / luminance.size if len(positive) else 0.0
 
 
 def exposure(color):

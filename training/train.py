@@ -3,7 +3,8 @@
 Usage: train.py --run DIR --frames CACHE --validation CACHE --hours H [--channels 24,40,64,80] [--sample-features 24] [--seed 1]
                 [--start CHECKPOINT|NETWORK.rpfnet] [--rate 1e-3]
 --start goes on from a network that is as wide or narrower (widen.py): a checkpoint's or one that ships; its rate may be lower.
-CACHE holds NAME.samples.npy ([27, n, y, x], frames.py) and NAME.ref.npy ([3, y, x]), exposed alike; it may grow during training.
+CACHE holds NAME.samples.npy ([27, n, y, x], frames.py) and NAME.ref.npy ([3, y, x]), exposed alike, and NAME.exposure.npy
+(training/scenes/to_frames.py); it may grow during training.
 The learning rate follows the hours spent (of one core), so a run that is interrupted ends with the same schedule.
 """
 import argparse
@@ -46,9 +47,9 @@ def of_equal_weight(loss):
     return torch.log(loss + 0.003)
 
 
-def trimmed_error(result, reference):
-    """relMSE without the worst 0.1 % of the pixels."""
-    error = ((result - reference).square() / (reference.square() + 0.01)).mean(0).flatten().sort().values
+def trimmed_error(result, reference, exposure):
+    """relMSE without the worst 0.1 % of the pixels, of the frame as it was before its exposure."""
+    error = ((result - reference).square() / (reference.square() + 0.01 * exposure ** 2)).mean(0).flatten().sort().values
     return float(error[:len(error) - len(error) // 1000].mean())
 
 
@@ -65,6 +66,9 @@ class Frames:
     def load(self, name):
         """Mapped: a step reads of it what it sees."""
         return tuple(torch.from_numpy(np.load(self.folder / f"{name}.{kind}.npy", mmap_mode="c")) for kind in ("samples", "ref"))
+
+    def exposure(self, name):
+        return float(np.load(self.folder / f"{name}.exposure.npy"))
 
 
 class Run:
@@ -125,10 +129,11 @@ class Run:
         errors = {}
         for name in frames.names:
             samples, reference = frames.load(name)
+            exposure = frames.exposure(name)
             for count in (c for c in VALIDATED_COUNTS if c <= samples.shape[1]):
                 height, width = part_shape(*reference.shape[1:], count)
                 result = network(samples[:, :count, :height, :width].float())
-                errors.setdefault(count, []).append(trimmed_error(result, reference[:, :height, :width]))
+                errors.setdefault(count, []).append(trimmed_error(result, reference[:, :height, :width], exposure))
         return {count: float(np.exp(np.mean(np.log(e)))) for count, e in errors.items()}
 
     def log(self, validation, frames):

@@ -49,7 +49,8 @@ struct Settings {
   /// Of learned: the name of a network in the library (presets.h), or a network file.
   std::string model = "balanced";
   std::string backend = "cpu";  ///< one of backend_names()
-  /// OpenCL device: index or part of a name (devices.h); empty: the first. "auto" then insists on it.
+  /// OpenCL device: index or part of a name (devices.h); empty: the first. For one that is named "auto" takes nothing
+  /// else.
   std::string device;
   Profile profile = Profile::thesis;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "parallel/thread_count.h"
@@ -19,6 +20,30 @@ Number lower_median(std::vector<Number> values) {
 }
 
 double luminance(double red, double green, double blue) { return (red + green + blue) / 3; }
+
+struct PixelBlock {
+  double mean;  ///< luminance
+  double pixels;
+};
+
+/// Of 8x8 pixels, fewer at the right and lower edge: of few samples many pixels are black and some far too bright, but
+/// as many as there are in a block tell how bright it is.
+std::vector<PixelBlock> blocks_of(const std::vector<double>& luminances, const Window& window) {
+  constexpr int side = 8;
+  std::vector<PixelBlock> blocks;
+  for (int y = 0; y < window.height; y += side)
+    for (int x = 0; x < window.width; x += side) {
+      const int width = std::min(side, window.width - x), height = std::min(side, window.height - y);
+      double sum = 0;
+      for (int row = y; row < y + height; ++row) {
+        const auto first = luminances.begin() + static_cast<std::ptrdiff_t>(row) * window.width + x;
+        sum = std::accumulate(first, first + width, sum);
+      }
+      const double pixels = width * height;
+      blocks.push_back({sum / pixels, pixels});
+    }
+  return blocks;
+}
 
 bool is_relative(int input) {
   return (input >= RPF_INPUT_POSITION && input < RPF_INPUT_MISS) || input == RPF_INPUT_DISTANCE2;
@@ -135,15 +160,16 @@ std::vector<int> ObserveScan::constant_in(const SampleBuffer& rows, std::size_t 
   return inputs;
 }
 
-/// The power of two that exposes the frame: of the mean luminance, without what is far above the median. Over all
-/// samples, in the order of the pixels.
+/// The power of two that exposes the frame: of the mean luminance, without what is far above the median.
 float ObserveScan::exposure() const {
+  const std::vector<PixelBlock> blocks = blocks_of(luminances_, clean_.frame.data_window);
   std::vector<double> positive;
-  std::copy_if(luminances_.begin(), luminances_.end(), std::back_inserter(positive), [](double l) { return l > 0; });
+  for (const PixelBlock& block : blocks)
+    if (block.mean > 0) positive.push_back(block.mean);
   if (positive.empty()) return 1;
   const double limit = 8 * lower_median(std::move(positive));
   double sum = 0;
-  for (const double l : luminances_) sum += std::min(l, limit);
+  for (const PixelBlock& block : blocks) sum += block.pixels * std::min(block.mean, limit);
   const double mean = sum / static_cast<double>(luminances_.size());
   return power_of_two(-2 - std::ilogb(mean * radiance_scale(found_.cleaned.brightest)));
 }

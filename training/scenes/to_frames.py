@@ -3,7 +3,8 @@
 Usage: to_frames.py DIR CACHE [--remove]
 
 For each NAME.samples.rpf with NAME.reference.rpf in DIR: CACHE/NAME.samples.npy, [27, n, y, x] float16 of frames.frame_channels,
-and CACHE/NAME.ref.npy, [3, y, x] float32, exposed alike. What is there is skipped. --remove deletes what was turned.
+CACHE/NAME.ref.npy, [3, y, x] float32, exposed alike, and CACHE/NAME.exposure.npy, what radiance was multiplied with. What is there is skipped.
+--remove deletes what was turned.
 """
 import argparse
 import os
@@ -46,7 +47,9 @@ def save(path, array):
 def convert(samples_path, reference_path, cache, name):
     file = finite_radiance(raw_samples.read_samples(samples_path))
     samples, _ = frame_channels(file)
-    save(cache / f"{name}.ref.npy", (picture(raw_samples.read_samples(reference_path)) * frame_exposure(file)).astype(np.float32))
+    scale = frame_exposure(file)
+    save(cache / f"{name}.exposure.npy", np.float32(scale))
+    save(cache / f"{name}.ref.npy", (picture(raw_samples.read_samples(reference_path)) * scale).astype(np.float32))
     save(cache / f"{name}.samples.npy", np.clip(samples, -LARGEST, LARGEST).astype(np.float16))  # last: the trainer looks for it
 
 

@@ -51,15 +51,31 @@ TEST(Exposure, BringsTheMeanLuminanceBetweenAQuarterAndAHalf) {
   }
 }
 
-TEST(Exposure, TakesAPixelForEightTimesTheMedianAtMost) {
-  SampleBuffer samples = test::every_input({3, 1, 1, 1});
-  for (const char* slot : {"R", "G", "B"}) {
-    value_of(samples, 0, slot) = 1;
-    value_of(samples, 1, slot) = 1;
-    value_of(samples, 2, slot) = 1000;  // counts as 8: the mean is 10/3
-  }
+/// Of a row of pixels, one sample each.
+float exposure_of_row(const std::vector<float>& radiance) {
+  SampleBuffer samples = test::every_input({static_cast<int>(radiance.size()), 1, 1, 1});
+  for (std::size_t i = 0; i < radiance.size(); ++i)
+    for (const char* slot : {"R", "G", "B"}) value_of(samples, i, slot) = radiance[i];
   const Seen o = observed(samples);
-  EXPECT_EQ(o.plan.exposure * o.prepared.facts.radiance_scale, 0.125F);
+  return o.plan.exposure * o.prepared.facts.radiance_scale;
+}
+
+TEST(Exposure, TakesABlockForEightTimesTheMedianAtMost) {
+  std::vector<float> row(24, 1.0F);
+  std::fill(row.begin() + 16, row.end(), 1000.0F);  // counts as 8: the mean is 10/3
+  EXPECT_EQ(exposure_of_row(row), 0.125F);
+}
+
+TEST(Exposure, CountsABlockAtTheEdgeByItsPixels) {
+  std::vector<float> row(9, 1.0F);
+  row[8] = 1000;  // counts as 8: the mean is 16/9, of blocks it would be 9/2
+  EXPECT_EQ(exposure_of_row(row), 0.25F);
+}
+
+TEST(Exposure, OfFewSamplesThatCarryTheLightIsThatOfTheirMean) {
+  std::vector<float> row(64, 0.01F);
+  for (std::size_t i = 3; i < row.size(); i += 8) row[i] = 9;  // the median of the pixels is 0.01, the mean 1.13
+  EXPECT_EQ(exposure_of_row(row), exposure_of_row(std::vector<float>(64, 1.13F)));
 }
 
 TEST(Exposure, OfABlackFrameIsOne) {
