@@ -23,8 +23,8 @@ struct PlannedOutput {
 
 /// Refuses what would fail or destroy something after the work. Throws Error(output) where a target cannot be written
 /// (docs/file-format.md, "Files that are written"), where its extension is of no format or its format cannot hold the
-/// channels or the size, or where the library of its format is missing; Error(usage) where two outputs are one file, or
-/// an output is an input that it must not replace. Leaves nothing.
+/// channels or the size, or where the library of its format is missing; Error(usage) where two outputs are one file, a
+/// page has the name of an image, or an output is an input that it must not replace. Leaves nothing.
 void check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<std::string>& inputs);
 
 /// Throws Error(usage) where a crop is not inside the data window, so that it has nothing to write.

@@ -33,7 +33,7 @@ constexpr NumberRange gamma{0.01, 0.5, "0.2"};
 constexpr NumberRange views{1, 65536, "128", true};
 constexpr NumberRange bandwidth{1e-3, 1e3, "2"};
 constexpr NumberRange count{1, 4294967295.0, "1000", true};  ///< of samples: max_samples
-constexpr NumberRange threads{1, 1 << 20, "8", true};
+constexpr NumberRange threads{1, 4096, "8", true};
 }  // namespace ranges
 
 }  // namespace rpf

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <system_error>
 #include <tuple>
 
@@ -66,9 +68,13 @@ bench::FrameJob job_of(const bench::SweepFrame& frame, const bench::SweepSetting
   } catch (const CLI::ParseError& e) {
     throw Error(ErrorKind::usage, fmt::format("setting \"{}\": {}", setting.name, e.what()));
   }
-  if (!options.input.empty() || !options.output.empty() || !options.aov.empty())
-    throw Error(ErrorKind::usage,
-                fmt::format("setting \"{}\": options that name files have no place here", setting.name));
+  const bool names_files =
+      !options.input.empty() || std::any_of(std::begin(frame_files), std::end(frame_files),
+                                            [&](const FrameFile& file) { return !(options.*file.path).empty(); });
+  if (names_files || !options.rows.empty())
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("setting \"{}\": options that name files or a part of a frame have no place here", setting.name));
   const Settings settings = settings_of(options);
   return {frame.samples, frame.reference, settings, read_options_of(options, settings)};
 }

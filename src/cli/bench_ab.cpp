@@ -34,8 +34,10 @@ void measure(Side& side, const bench::SweepFrame& frame) {
 }
 
 void measure_rounds(Side& a, Side& b, const bench::SweepFrame& frame, int rounds) {
-  for (Side* side : {&a, &b})
-    if (side->binary.empty()) bench::warm_up(job_of(frame, side->setting), stoppable());
+  std::vector<bench::FrameJob> jobs;  // of both, before either runs: one may be refused
+  for (const Side* side : {&a, &b})
+    if (side->binary.empty()) jobs.push_back(job_of(frame, side->setting));
+  for (const bench::FrameJob& job : jobs) bench::warm_up(job, stoppable());
   for (int round = 0; round < rounds; ++round) {
     show_status(fmt::format("{}: round {} of {}", frame.name, round + 1, rounds));
     const bool a_first = round % 2 == 0;  // whoever is first finds another machine than who is second

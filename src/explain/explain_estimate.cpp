@@ -25,7 +25,7 @@ class Estimated {
         backend_(make_backend(settings)) {
     result_.position = position;
     check_memory(samples, settings);
-    Observed observed = observe(std::move(samples), settings, find_network(settings.model));
+    Observed observed = observe(std::move(samples), settings, find_network(settings.model, settings.max_memory));
     prepared_ = std::move(observed.prepared);
     plan_ = std::move(observed.plan);
     result_.model = plan_.network->name;

@@ -53,6 +53,37 @@ class RandomCheck : public SampleCheck {
   Guess is_signed_{"which look like -1 to 1; write (r + 1) / 2"};
 };
 
+/// Coverage; what is not finite is told as such.
+class AlphaCheck : public SampleCheck {
+ public:
+  explicit AlphaCheck(std::size_t column) : column_(column) {}
+
+  void look(const ColumnBlock& records, const PixelCorners& /*corners*/, BlockMask& odd) const override {
+    mark_outside(records[column_], least, most, odd);
+  }
+
+  void add(const float* record, std::size_t pixel) override {
+    const float alpha = record[column_];
+    if ((alpha >= least && alpha <= most) || !std::isfinite(alpha)) return;
+    outside_.add(pixel);
+    bytes_.agreeing += alpha > 0 && alpha <= 255 && alpha == std::floor(alpha) ? 1 : 0;
+  }
+
+  void tell(const Window& data_window, std::vector<InputNote>& notes) const override {
+    outside_.tell("values of alpha outside 0 to 1" +
+                      advice_of({bytes_}, outside_.count, "; write the part of the sample that is covered"),
+                  data_window, notes);
+  }
+
+ private:
+  static constexpr float least = -1e-3F,
+                         most = 1 + 1e-3F;  // sums of weights that make 1 but for rounding, also of half
+
+  std::size_t column_;
+  Tally outside_;
+  Guess bytes_{"which look like 0 to 255; divide by 255"};
+};
+
 /// Pixels whose samples are copies of one: a sampler that starts anew for every sample.
 class CopyCheck : public PixelCheck {
  public:
@@ -97,6 +128,7 @@ std::vector<std::size_t> columns_of(const SampleLayout& layout, const std::strin
 Conventions::Conventions(const SampleBuffer& frame) {
   add_film_check(frame, checks_);
   checks_.of_samples.push_back(std::make_unique<RandomCheck>(frame.layout));
+  if (const auto alpha = frame.layout.find("A")) checks_.of_samples.push_back(std::make_unique<AlphaCheck>(*alpha));
   add_surface_checks(frame, checks_);
   checks_.of_pixels.push_back(std::make_unique<CopyCheck>());
 }

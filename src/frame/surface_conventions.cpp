@@ -33,16 +33,21 @@ bool is_hit(const float* record, const std::optional<std::size_t>& hit) { return
 
 class NormalCheck : public SampleCheck {
  public:
-  NormalCheck(const SampleLayout& layout, std::string group, std::vector<std::size_t> columns)
-      : hit_(layout.find("feature.hit")), group_(std::move(group)), columns_(std::move(columns)) {}
+  /// `of_first_hit`: where `hit` is not 0 there must be one; what a second hit has says nothing of the first.
+  NormalCheck(const SampleLayout& layout, std::string group, std::vector<std::size_t> columns, bool of_first_hit)
+      : hit_(layout.find("feature.hit")),
+        must_be_(of_first_hit && hit_),
+        group_(std::move(group)),
+        columns_(std::move(columns)) {}
 
   void look(const ColumnBlock& records, const PixelCorners& /*corners*/, BlockMask& odd) const override {
     constexpr float least = 1 - unit_slack, most = 1 + unit_slack;  // of a square: half the slack of a length
     const float *x = records[columns_[0]], *y = records[columns_[1]], *z = records[columns_[2]];
+    const float* hit = must_be_ ? records[*hit_] : x;  // x: where nothing must be, zeros are not odd
     for (std::size_t i = 0; i < block_records; ++i) {
       const float square = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
       const std::int32_t any = static_cast<std::int32_t>(x[i] != 0) | static_cast<std::int32_t>(y[i] != 0) |
-                               static_cast<std::int32_t>(z[i] != 0);
+                               static_cast<std::int32_t>(z[i] != 0) | static_cast<std::int32_t>(hit[i] != 0);
       odd[i] |= (static_cast<std::int32_t>(square < least) & any) | static_cast<std::int32_t>(square > most);
     }
   }
@@ -51,12 +56,18 @@ class NormalCheck : public SampleCheck {
     wrong_.tell(fmt::format("normals {} whose length is not 1{}", group_,
                             advice_of({encoded_}, wrong_.count, "; write unit vectors in world space")),
                 data_window, notes);
+    none_.tell(fmt::format("normals {} that are 0,0,0 where a surface was hit; write its normal, or hit 0", group_),
+               data_window, notes);
   }
 
   void add(const float* record, std::size_t pixel) override {
     if (!is_hit(record, hit_)) return;
     const Vector n = vector_at(record, columns_);
-    if (is_unit(n) || dot(n, n) == 0 || !std::isfinite(dot(n, n))) return;  // (0,0,0): nothing was hit
+    if (is_unit(n) || !std::isfinite(dot(n, n))) return;
+    if (dot(n, n) == 0) {
+      if (must_be_) none_.add(pixel);  // else: nothing was hit
+      return;
+    }
     wrong_.add(pixel);
     const bool in_cube = n[0] >= 0 && n[0] <= 1 && n[1] >= 0 && n[1] <= 1 && n[2] >= 0 && n[2] <= 1;
     encoded_.agreeing += in_cube && is_unit({2 * n[0] - 1, 2 * n[1] - 1, 2 * n[2] - 1}) ? 1 : 0;
@@ -64,9 +75,10 @@ class NormalCheck : public SampleCheck {
 
  private:
   std::optional<std::size_t> hit_;
+  bool must_be_;
   std::string group_;
   std::vector<std::size_t> columns_;
-  Tally wrong_;
+  Tally wrong_, none_;
   Guess encoded_{"which look encoded to 0 to 1; write 2 N - 1"};
 };
 
@@ -210,7 +222,7 @@ void add_surface_checks(const SampleBuffer& samples, ConventionChecks& checks) {
   if (const auto hit = layout.find("feature.hit")) checks.of_samples.push_back(std::make_unique<HitCheck>(*hit));
   for (const std::string group : {"N", "Ns", "Ng", "N2"})
     if (auto columns = columns_of(layout, "feature." + group, "XYZ"); !columns.empty())
-      checks.of_samples.push_back(std::make_unique<NormalCheck>(layout, group, std::move(columns)));
+      checks.of_samples.push_back(std::make_unique<NormalCheck>(layout, group, std::move(columns), group != "N2"));
   for (const std::string group : {"albedo", "albedo2"})
     if (auto columns = columns_of(layout, "feature." + group, "RGB"); !columns.empty())
       checks.of_samples.push_back(std::make_unique<AlbedoCheck>(layout, group, std::move(columns)));

@@ -38,13 +38,17 @@ std::uint8_t to_byte(double value) {
 
 }  // namespace
 
-const ImageFormat& format_of(const std::string& path) {
+const ImageFormat* find_format(const std::string& path) {
   const std::string extension = extension_of(path);
+  const auto has_it = [&](const ImageFormat& format) { return extension == format.extension; };
+  const auto* found = std::find_if(formats.begin(), formats.end(), has_it);
+  return found == formats.end() ? nullptr : &*found;
+}
+
+const ImageFormat& format_of(const std::string& path) {
+  if (const ImageFormat* format = find_format(path)) return *format;
   std::string known;
-  for (const ImageFormat& format : formats) {
-    if (extension == format.extension) return format;
-    known += std::string(" ") + format.extension;
-  }
+  for (const ImageFormat& format : formats) known += std::string(" ") + format.extension;
   throw Error(ErrorKind::output,
               fmt::format("\"{}\" has no extension of an image format that can be written; use one of{}", path, known));
 }

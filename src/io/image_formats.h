@@ -21,7 +21,10 @@ struct ImageFormat {
   int longest_side;   ///< pixels of width or height that the format or its library takes
 };
 
-/// The format by the extension of `path`, in any case of letters. Throws Error(output) that lists all extensions.
+/// The format by the extension of `path`, in any case of letters; null where it is of none.
+const ImageFormat* find_format(const std::string& path);
+
+/// The same; throws Error(output) that lists all extensions where it is of none.
 const ImageFormat& format_of(const std::string& path);
 
 /// Columns of an image with these channels that the format stores, in its order. Throws Error(output) where R, G or B

@@ -25,6 +25,10 @@ void check_image_format(const PlannedOutput& output) {
 void check_format(const PlannedOutput& output) {
   if (output.kind == OutputKind::image) check_image_format(output);
   if (output.kind == OutputKind::samples) io::sample_format_of(output.path);
+  if (output.kind == OutputKind::page && io::find_format(output.path) != nullptr)
+    throw Error(ErrorKind::usage, fmt::format("\"{}\" has the name of an image, but text would be written to it; name "
+                                              "a page .html, facts .json",
+                                              output.path));
 }
 
 /// Where a file can be made before the work: in the folder, or where that will be made.
@@ -55,8 +59,8 @@ void check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<
   std::vector<io::OutputPlace> places;
   for (const PlannedOutput& output : outputs) {
     places.push_back(probe(output));
-    check_format(output);
     for (const std::string& input : inputs) check_input(output, places.back(), input);
+    check_format(output);
     for (std::size_t other = 0; other + 1 < places.size(); ++other)
       if (places[other].is_same(places.back()))
         throw Error(ErrorKind::usage, fmt::format("\"{}\" and \"{}\" are one file, and two results are to be written; "

@@ -109,12 +109,21 @@ std::uint16_t to_half(float value) {
   return static_cast<std::uint16_t>(std::min(bits, 0x7bff) | (std::signbit(value) ? 0x8000 : 0));
 }
 
-std::string bytes_of_file(const std::string& path) {
+/// `max_memory`: as in Settings, of the bytes and of the halves in them as floats.
+std::string bytes_of_file(const std::string& path, std::uint64_t max_memory) {
+  constexpr std::uint64_t held = 3;  // bytes for each of the file
+  const std::uint64_t most = max_memory == 0 ? most_bytes : std::min<std::uint64_t>(most_bytes, max_memory / held);
   std::ifstream file(path, std::ios::binary);
   std::string bytes, part(1 << 16, '\0');
   while (file.read(part.data(), static_cast<std::streamsize>(part.size())) || file.gcount() > 0) {
     bytes.append(part, 0, static_cast<std::size_t>(file.gcount()));
     if (bytes.size() > most_bytes) refuse(path, fmt::format("larger than {} bytes, which no network is", most_bytes));
+    if (bytes.size() > most)
+      throw Error(
+          ErrorKind::memory,
+          fmt::format("\"{}\": this network takes more than the limit of {:.0f} MB; raise --max-memory, or name "
+                      "another network",
+                      path, static_cast<double>(max_memory) / (1 << 20)));
   }
   return bytes;
 }
@@ -162,7 +171,7 @@ std::string network_bytes(const Network& network) {
   return bytes;
 }
 
-std::shared_ptr<const Network> find_network(const std::string& model) {
+std::shared_ptr<const Network> find_network(const std::string& model, std::uint64_t max_memory) {
   static std::mutex mutex;
   static std::map<std::string, std::shared_ptr<const Network>> known;
   for (const EmbeddedNetwork& embedded : embedded_networks()) {
@@ -172,7 +181,8 @@ std::shared_ptr<const Network> find_network(const std::string& model) {
     if (!network) network = std::make_shared<Network>(parse_network(embedded.bytes, model));
     return network;
   }
-  if (std::ifstream(model).good()) return std::make_shared<Network>(parse_network(bytes_of_file(model), model));
+  if (std::ifstream(model).good())
+    return std::make_shared<Network>(parse_network(bytes_of_file(model, max_memory), model));
   std::vector<std::string> names;
   for (const EmbeddedNetwork& embedded : embedded_networks()) names.emplace_back(embedded.name);
   throw Error(ErrorKind::usage,

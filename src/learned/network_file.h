@@ -25,9 +25,10 @@ struct EmbeddedNetwork {
 };
 const std::vector<EmbeddedNetwork>& embedded_networks();
 
-/// The network of that name in the library; else the file of that name. Networks of the library are read once. Throws
-/// Error(usage) where there is neither, Error(input) as parse_network() does.
-std::shared_ptr<const Network> find_network(const std::string& model);
+/// The network of that name in the library; else the file of that name. Networks of the library are read once.
+/// `max_memory`: as in Settings. Throws Error(usage) where there is neither, Error(input) as parse_network() does,
+/// Error(memory) where a file takes more than that.
+std::shared_ptr<const Network> find_network(const std::string& model, std::uint64_t max_memory = 0);
 
 /// The value of a binary16 number, exactly.
 float from_half(std::uint16_t half);

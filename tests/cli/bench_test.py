@@ -66,6 +66,16 @@ class BenchTest(CommandCase):
         self.expect(run("frames", EXAMPLE, "--set", "out=-o x.exr"), 2, "out", "files")
         self.expect(run("frames", EXAMPLE, EXAMPLE, "--reference", REFERENCE), 2, "2 files and 1 references")
 
+    def test_what_measuring_would_end_with_is_found_before(self):
+        for setting in ("--facts none.json", "--report x.html", "--rows 0-3"):
+            self.expect(run("frames", EXAMPLE, "--set", "x=" + setting), 2, "no place here")
+            self.expect(run("ab", EXAMPLE, "--b", setting), 2, "no place here")
+        small = self.folder / "small.exr"
+        subprocess.run([RPF, EXAMPLE, "-o", small, "-q", "--boxes", "none", "--crop", "8x6+2+3"], check=True)
+        self.expect(run("frames", EXAMPLE, "--reference", small, "--set", QUICK), 3, "16x12+20+20", "8x6+2+3", str(small))
+        self.expect(run("frames", EXAMPLE, "--reference", self.folder / "none.exr"), 3, "none.exr")
+        self.expect(run("frames", EXAMPLE, "--reference", small, "--set", "--boxes none --crop 8x6+2+3", "--rounds", "1"), 0)
+
     # ---- ab
 
     def test_ab_needs_six_rounds_for_a_verdict(self):

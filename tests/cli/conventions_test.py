@@ -114,6 +114,24 @@ class ConventionsTest(CommandCase):
         channels["feature.hit"][SPP * (2 * W + 3)] = 0.5
         self.expect_note(channels, "values of hit that are neither 0 nor 1", ": 1 (first at pixel 3,2)")
 
+    def test_alpha(self):
+        channels = {**frame(), "A": np.ones(W * H * SPP, np.float32)}
+        self.assertEqual(self.notes(channels), [])
+        channels["A"][SPP * (2 * W + 3)] = 1.5
+        self.expect_note(channels, "values of alpha outside 0 to 1; write the part", ": 1 (first at pixel 3,2)")
+        channels["A"][:] = 255
+        self.expect_note(channels, "values of alpha outside 0 to 1, which look like 0 to 255", f": {W * H * SPP} (first at pixel 0,0)")
+
+    def test_hits_without_a_normal(self):
+        channels = {**frame(), "feature.hit": np.ones(W * H * SPP, np.float32)}
+        for c in "XYZ":
+            channels[f"feature.N.{c}"][:SPP] = 0
+        self.expect_note(channels, "normals N that are 0,0,0 where a surface was hit", "or hit 0", f": {SPP} (first at pixel 0,0)")
+        channels["feature.hit"][:SPP] = 0
+        self.assertEqual(self.notes(channels), [])
+        del channels["feature.hit"]  # what was hit is not known
+        self.assertEqual(self.notes(channels), [])
+
     def test_normals(self):
         for text, change in {"2 N - 1": lambda n: (n + 1) / 2, "unit vectors": lambda n: 3 * n}.items():
             channels = frame()

@@ -134,6 +134,17 @@ class Memory(unittest.TestCase):
         for arguments in (["scene", "dof", "--density", self.header], ["density", self.samples, "--error", self.header], ["join", self.header]):
             self.expect_refusal([*arguments, "-o", self.folder / "out.exr", "--max-memory", "1000"])
 
+    def test_a_network(self):
+        self.assertEqual(self.run_rpf("scene", "dof", "--size", "8x6", "--spp", "4", "-q", "-o", self.samples)[0], 0)
+        network = self.folder / "large.rpfnet"
+        with open(network, "wb") as file:
+            file.truncate(200 << 20)
+        code, text, peak = self.run_rpf(self.samples, "--model", network, "-o", self.folder / "out.exr", "--max-memory", "150")
+        self.assertEqual(code, 6, text)
+        self.assertIn("takes more than the limit of 150 MB", text)
+        if not SANITIZED:
+            self.assertLess(peak, 150)
+
     def test_scenes(self):
         for kind in (["--spp", "1"], ["--reference", "2"]):
             with self.subTest(kind):

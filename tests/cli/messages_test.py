@@ -52,7 +52,7 @@ class MessagesTest(CommandCase):
 
     # ---- numbers
 
-    RANGES = {"--threads": ("1", "1048576"), "--max-memory": ("1", "1073741824"), "--noise": ("1e-12", "1e+12"), "--bins": ("3", "31"), "--redraws": ("0", "15"),
+    RANGES = {"--threads": ("1", "4096"), "--max-memory": ("1", "1073741824"), "--noise": ("1e-12", "1e+12"), "--bins": ("3", "31"), "--redraws": ("0", "15"),
               "--samples-factor": ("1e-09", "1000000"), "--max-samples": ("1", "4294967295"),
               "--alpha-factor": ("0", "1000000"), "--position-scale": ("1e-06", "1000000"), "--seed": ("0", "4294967295"),
               "--sigma-color": ("1e-30", "1e+30"), "--sigma-feature": ("1e-06", "1000000"), "--boxes": ("1", "255"),
@@ -76,10 +76,10 @@ class MessagesTest(CommandCase):
 
     def test_numbers_of_the_environment_name_their_variable(self):
         for value in ("all", "0", "-4", "9" * 300):
-            self.expect_line(run(self.samples, "-o", self.output, RPF_NUM_THREADS=value), "RPF_NUM_THREADS", "1048576", "such as 8")
+            self.expect_line(run(self.samples, "-o", self.output, RPF_NUM_THREADS=value), "RPF_NUM_THREADS", "4096", "such as 8")
             self.expect_line(run(self.samples, "-o", self.output, RPF_MAX_MEMORY_MB=value), "RPF_MAX_MEMORY_MB", "such as")
             for variable in ("SLURM_CPUS_PER_TASK", "CUE_THREADS"):
-                self.expect_line(run(self.samples, "-o", self.output, **{variable: value}), variable, "1048576", "--threads")
+                self.expect_line(run(self.samples, "-o", self.output, **{variable: value}), variable, "4096", "--threads")
             self.expect_line(run("scene", "dof", "-o", self.folder / "x.exr", RPF_NUM_THREADS=value), "RPF_NUM_THREADS", "such as 8")
 
     def test_names_of_the_environment_and_of_options_name_where_they_come_from(self):
