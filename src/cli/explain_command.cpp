@@ -11,6 +11,7 @@
 #include "cli/numbers.h"
 #include "cli/print.h"
 #include "cli/progress_bar.h"
+#include "cli/result_folder.h"
 #include "cli/signals.h"
 #include "report/plot.h"
 #include "rpf/error.h"
@@ -70,9 +71,10 @@ ExplainedEstimate estimate_of(const Options& o, const Settings& published, const
 
 void write_pages(const Options& o, const Explanation& explanation, const std::optional<ExplainedEstimate>& estimate) {
   const SignalGuard guard;  // a signal now waits until the files are whole
-  make_folder(folder_of(o).string());
+  ResultFolder folder(folder_of(o));
   if (estimate) write_pixel_page(o.filter.output, o.filter.input, explanation, *estimate);
   write_explanation(o.filter.output, o.filter.input, explanation);
+  folder.keep();
 }
 
 int run(const Options& o) {

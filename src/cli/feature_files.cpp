@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "cli/result_folder.h"
 #include "rpf/error.h"
 #include "rpf/io.h"
 
@@ -70,8 +71,9 @@ std::vector<PlannedOutput> planned_features(const std::string& aov, const std::v
 
 void write_features(const std::string& aov, const Image& features) {
   if (!is_folder(aov)) return write_image(aov, features);
-  make_folder(aov);
+  ResultFolder folder(aov);
   for (const GroupFile& file : group_files(aov, features.channels)) write_image(file.path, part_of(features, file));
+  folder.keep();
 }
 
 }  // namespace rpf::cli

@@ -87,6 +87,18 @@ class MachineTest(unittest.TestCase):
                 self.expect_no_temporaries(folder)
                 output.unlink()
 
+    def expect_no_new_folder(self, folder, text, **keywords):
+        """Of a folder of results that cannot be written whole nothing is left, nor of its parts; one that was there stays."""
+        made = folder / "made"
+        for there_before in (False, True):
+            for arguments in ([EXAMPLE, "--boxes", "none", "-q", "-o", self.folder / "image.exr", "--aov", f"{made}/"], ["explain", EXAMPLE, "--box", "3", "-q", "-o", made]):
+                with self.subTest(arguments=arguments[0], there_before=there_before):
+                    if there_before:
+                        made.mkdir()
+                    self.expect(run(*arguments, **keywords), 4, "made", text)
+                    self.assertEqual(made.exists(), there_before)
+                    shutil.rmtree(made, ignore_errors=True)
+
     def test_full_disk(self):
         disk = self.folder / "disk"
         disk.mkdir()
@@ -95,12 +107,14 @@ class MachineTest(unittest.TestCase):
         try:
             (disk / "ballast").write_bytes(bytes(48 << 10))
             self.expect_old_output_survives(disk, "No space left")
+            self.expect_no_new_folder(disk, "No space left")
         finally:
             subprocess.run(["umount", disk], check=True)
 
     def test_limit_of_file_sizes(self):
         """A full disk for everybody: needs no rights."""
-        self.expect_old_output_survives(self.folder, "File too large", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (16 << 10, 16 << 10)))
+        limit = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (16 << 10, 16 << 10))}
+        self.expect_old_output_survives(self.folder, "File too large", **limit)
 
     def test_read_only_folder(self):
         folder = self.folder / "read-only"
