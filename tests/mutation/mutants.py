@@ -213,7 +213,7 @@ MUTANTS = [
     Mutant("outlier_threshold", MATH, "1.00001f", "2.0f",
            "oracle spp8_paper color", "outliers: two deviations"),
     Mutant("outlier_equality", MATH, "1.00001f", "1.0f",
-           "OutlierStep.KeepsTwoSamplesAndEqualSamples", "outliers: equality counts"),
+           "OutlierStep.KeepsTwoHalves", "outliers: equality counts"),
     Mutant("outlier_one_sided", MATH, "return fabs(value - mean) > RPF_OUTLIER_THRESHOLD", "return value - mean > RPF_OUTLIER_THRESHOLD",
            "Outlier.IsMoreThanOneStandardDeviationOff", "outliers: only bright ones"),
     Mutant("energy_lost", WEIGHTING, "filtered[i * carried + c] += taken;", "filtered[i * carried + c] += 0 * taken;",

@@ -43,6 +43,19 @@ TEST(OutlierStep, KeepsTwoSamplesAndEqualSamples) {
   EXPECT_EQ(samples, equal);
 }
 
+// Each half is exactly one deviation off, which rounding of a division by six or ten must not make more.
+TEST(OutlierStep, KeepsTwoHalves) {
+  for (const int half : {3, 5})
+    for (int k = 1; k < 100; ++k) {
+      std::vector<float> samples(std::size_t{6} * half, 0.25F);
+      for (std::size_t i = samples.size() / 2; i < samples.size(); ++i)
+        samples[i] = 0.25F + 0.01F * static_cast<float>(k);
+      const std::vector<float> before = samples;
+      replace_outliers(samples.data(), 2 * half, 3);
+      ASSERT_EQ(samples, before) << half << " samples that are " << k << " hundredths brighter";
+    }
+}
+
 TEST(OutlierStep, KeepsTheEnergy) {
   std::vector<float> samples;
   for (int i = 0; i < 60; ++i) samples.push_back(static_cast<float>((i * 37 + 11) % 101) * (i == 30 ? 100.0F : 1.0F));
