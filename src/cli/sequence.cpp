@@ -65,13 +65,14 @@ std::vector<FrameTask> tasks_of(const FilterOptions& filter, const SequenceOptio
   return tasks;
 }
 
-/// The tasks themselves, once it is known that none spoils what another one has.
+/// The tasks themselves, once it is known that their frames are there and that none spoils what another one has.
 std::vector<FrameTask> checked(std::vector<FrameTask> tasks, const FilterOptions& filter, const SequenceOptions& o) {
   const FramePattern pattern(filter.input);
   std::vector<std::string> inputs;
   if (pattern.has_place())
     for (const int number : pattern.listed()) inputs.push_back(pattern.path_of(number));
   check_sequence_files(tasks, inputs, o.log);
+  if (pattern.has_place() && !o.skip_bad_frames) check_frames_are_there(tasks);
   return tasks;
 }
 

@@ -1,8 +1,12 @@
 #include "cli/sequence_files.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <map>
+#include <system_error>
 
 #include "cli/filter_input.h"
 #include "rpf/error.h"
@@ -10,6 +14,8 @@
 
 namespace rpf::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Who has a file, by file_identity().
 using Owners = std::map<std::string, std::string>;
@@ -59,6 +65,26 @@ void check_sequence_files(const std::vector<FrameTask>& tasks, const std::vector
     }
   }
   check_log(log, readers, writers);
+}
+
+void check_frames_are_there(const std::vector<FrameTask>& tasks) {
+  constexpr std::size_t listed = 10;
+  std::vector<std::string> missing;
+  std::string first;
+  for (const FrameTask& task : tasks) {
+    std::error_code unknown;  // opening it says what else is wrong
+    if (fs::status(task.options.input, unknown).type() != fs::file_type::not_found) continue;
+    if (missing.empty()) first = task.options.input;
+    missing.push_back(task.name);
+  }
+  if (missing.empty()) return;
+  const std::size_t count = missing.size();
+  missing.resize(std::min(count, listed));
+  throw Error(
+      ErrorKind::input,
+      fmt::format("\"{}\" is not there: {} of {} frames are missing ({}{}); render them, name others with --frames, "
+                  "or leave them out with --skip-bad-frames",
+                  first, count, tasks.size(), fmt::join(missing, ","), count > listed ? ", ..." : ""));
 }
 
 }  // namespace rpf::cli

@@ -19,4 +19,7 @@ struct FrameTask {
 void check_sequence_files(const std::vector<FrameTask>& tasks, const std::vector<std::string>& inputs,
                           const std::string& log);
 
+/// Throws Error(input) that names the frames whose input is not there, before others are filtered.
+void check_frames_are_there(const std::vector<FrameTask>& tasks);
+
 }  // namespace rpf::cli

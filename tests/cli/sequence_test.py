@@ -135,6 +135,12 @@ class SequenceTest(CommandCase):
         self.assertEqual(result.stdout.splitlines()[-1], f"frames: {FRAMES - 2} done, 2 failed (3,5)")
         self.expect_as_single_runs([1, 2, 4, 6])
 
+    def test_a_frame_that_is_missing_is_found_before_others_are_filtered(self):
+        self.frame(5, "in").unlink()
+        for dry in ([], ["--dry-run"]):
+            self.expect(self.filter("--frames", f"1-{FRAMES}", *dry), 3, "in.0005.exr", f"1 of {FRAMES} frames are missing (5)", "--skip-bad-frames")
+        self.assertEqual(self.made(), [])
+
     def test_without_being_told_to_go_on_it_stops_there(self):
         self.frame(3, "in").write_bytes(b"nothing")
         result = self.filter()
