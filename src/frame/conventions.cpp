@@ -76,8 +76,8 @@ class AlphaCheck : public SampleCheck {
   }
 
  private:
-  static constexpr float least = -1e-3F,
-                         most = 1 + 1e-3F;  // sums of weights that make 1 but for rounding, also of half
+  // Sums that make 1 but for rounding, also of half.
+  static constexpr float least = -1e-3F, most = 1 + 1e-3F;
 
   std::size_t column_;
   Tally outside_;

@@ -33,7 +33,7 @@ bool is_hit(const float* record, const std::optional<std::size_t>& hit) { return
 
 class NormalCheck : public SampleCheck {
  public:
-  /// `of_first_hit`: where `hit` is not 0 there must be one; what a second hit has says nothing of the first.
+  /// `of_first_hit`: feature.hit speaks of these, so that where it is not 0 there must be one.
   NormalCheck(const SampleLayout& layout, std::string group, std::vector<std::size_t> columns, bool of_first_hit)
       : hit_(layout.find("feature.hit")),
         must_be_(of_first_hit && hit_),
