@@ -34,6 +34,9 @@ void check_crop(const Window& crop, const Window& data_window);
 std::string file_identity(const std::string& path);
 inline bool is_same_file(const std::string& a, const std::string& b) { return file_identity(a) == file_identity(b); }
 
+/// Throws Error(usage) where a file of text has the name of an image or of samples.
+void check_text_name(const std::string& path);
+
 /// For what is written to bit by bit. Throws Error(output) where the path is no regular file that may be written to,
 /// and cannot become one.
 void check_target(const std::string& path);

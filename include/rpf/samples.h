@@ -83,8 +83,8 @@ struct SamplePart {
 /// Joins renderings of one frame with different seeds: in each pixel the samples of the first part, then those of the
 /// second, and so on, unchanged. Display window, order of slots and metadata are the first part's; of two or more parts
 /// the attribute rpf:seeds lists the seeds in place of rpf:seed. Throws Error(input) that names the parts where data
-/// windows or slots differ, where every pixel of two parts shares a sample (they have one seed), or where a part is
-/// invalid; Error(usage) without a part.
+/// windows, slots, view or camera differ, where every pixel of two parts shares a sample (they have one seed), or where
+/// a part is invalid; Error(usage) without a part.
 SampleBuffer merge_samples(std::vector<SamplePart> parts);
 
 /// Peak bytes of parts and result in merge_samples. `samples` is the sum over all parts.

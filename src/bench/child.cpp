@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 
@@ -26,7 +27,8 @@ ErrorKind kind_of(int exit_code) {
   return known ? static_cast<ErrorKind>(exit_code) : ErrorKind::internal;
 }
 
-/// Starts the program with its standard output in the pipe's end `out`.
+/// Starts the program with its standard output in the pipe's end `out`, as the leader of a group of processes: what it
+/// starts itself ends with it.
 pid_t start(const std::vector<std::string>& command, int out) {
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);
@@ -35,29 +37,75 @@ pid_t start(const std::vector<std::string>& command, int out) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   pid_t child = -1;
-  const int failure = posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ);
+  const int failure = posix_spawnp(&child, arguments.front(), &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0)
     throw Error(ErrorKind::usage, fmt::format("\"{}\" cannot be started: {}", command.front(), std::strerror(failure)));
   return child;
 }
 
-/// Everything that comes out of the pipe until its other end is closed.
-std::string read_all(int in, pid_t child) {
-  std::string text;
-  std::array<char, 4096> part{};
-  for (;;) {
-    pollfd ready{in, POLLIN, 0};
-    if (poll(&ready, 1, -1) < 0 && errno == EINTR) {  // a signal; read() would be restarted behind our back
-      kill(child, SIGTERM);
-      continue;
+using Clock = std::chrono::steady_clock;
+
+/// What a child prints, until it ends or has to.
+class Output {
+ public:
+  Output(int in, pid_t child) : in_(in), child_(child) {}
+
+  /// Everything that comes out of the pipe until its other end is closed. A signal to this process ends the child and
+  /// what that has started: it is asked to, and made to where it does not.
+  std::string read_all() {
+    std::string text;
+    std::array<char, 4096> part{};
+    while (wait()) {
+      const ssize_t count = read(in_, part.data(), part.size());
+      if (count <= 0) break;
+      text.append(part.data(), static_cast<std::size_t>(count));
     }
-    const ssize_t count = read(in, part.data(), part.size());
-    if (count <= 0) return text;
-    text.append(part.data(), static_cast<std::size_t>(count));
+    return text;
   }
-}
+  /// How the child ended, as waitpid() has it: it may have closed the pipe long before.
+  int wait_for_end() {
+    int status = 0;
+    while (waitpid(child_, &status, WNOHANG) == 0) {
+      if (poll(nullptr, 0, 10) < 0 && errno == EINTR) cancel();
+      if (was_cancelled_ && Clock::now() > end_) kill(-child_, SIGKILL);
+    }
+    return status;
+  }
+  bool was_cancelled() const { return was_cancelled_; }
+
+ private:
+  /// Until there is something to read; false where the child was made to end.
+  bool wait() {
+    for (;;) {
+      pollfd ready{in_, POLLIN, 0};
+      const int left = was_cancelled_ ? static_cast<int>((end_ - Clock::now()).count() / 1000000) : -1;
+      const int found = was_cancelled_ && left <= 0 ? 0 : poll(&ready, 1, left);
+      if (found > 0) return true;
+      if (found < 0 && errno == EINTR) cancel();  // a signal; read() would be restarted behind our back
+      if (found < 0) continue;
+      kill(-child_, SIGKILL);
+      return false;
+    }
+  }
+
+  void cancel() {
+    if (was_cancelled_) return;
+    kill(-child_, SIGTERM);
+    was_cancelled_ = true;
+    end_ = Clock::now() + std::chrono::seconds(1);
+  }
+
+  int in_;
+  pid_t child_;
+  bool was_cancelled_ = false;
+  Clock::time_point end_;  ///< of patience
+};
 
 }  // namespace
 
@@ -73,11 +121,11 @@ std::string output_of(const std::vector<std::string>& command) {
     throw;
   }
   close(ends[1]);
-  std::string text = read_all(ends[0], child);
+  Output output(ends[0], child);
+  std::string text = output.read_all();
   close(ends[0]);
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = output.wait_for_end();
+  if (output.was_cancelled()) throw Error(ErrorKind::cancelled, "cancelled");
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   if (code != 0) throw Error(kind_of(code), fmt::format("\"{}\" ended with exit code {}", command.front(), code));
   return text;

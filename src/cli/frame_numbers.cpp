@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "rpf/error.h"
+#include "rpf/outputs.h"
 
 namespace rpf::cli {
 namespace {
@@ -95,6 +96,20 @@ std::string FramePattern::path_of(int frame) const {
   return before_ + (frame < 0 ? "-" : "") + number + after_;
 }
 
+std::optional<int> FramePattern::number_in(const std::string& name) const {
+  const std::string start = fs::path(before_).filename().string();
+  if (name.size() <= start.size() + after_.size() || name.compare(0, start.size(), start) != 0) return {};
+  const std::string digits = name.substr(start.size(), name.size() - start.size() - after_.size());
+  if (digits.find_first_not_of("-0123456789") != std::string::npos || digits.size() > 8) return {};
+  const int frame = std::atoi(digits.c_str());
+  return fs::path(path_of(frame)).filename() == name ? std::optional<int>(frame) : std::nullopt;
+}
+
+bool FramePattern::names(const std::string& path) const {
+  const auto frame = has_place() ? number_in(fs::path(path).filename().string()) : std::nullopt;
+  return frame && is_same_file(path_of(*frame), path);
+}
+
 std::vector<int> FramePattern::listed() const {
   try {
     return existing();
@@ -110,15 +125,8 @@ std::vector<int> FramePattern::existing() const {
   if (failed)
     throw Error(ErrorKind::input, fmt::format("\"{}\": its folder cannot be read ({})", text_, failed.message()));
   std::vector<int> frames;
-  const std::string start = fs::path(before_).filename().string();
-  for (const fs::directory_entry& entry : entries) {
-    const std::string name = entry.path().filename().string();
-    if (name.size() <= start.size() + after_.size() || name.compare(0, start.size(), start) != 0) continue;
-    const std::string digits = name.substr(start.size(), name.size() - start.size() - after_.size());
-    if (digits.find_first_not_of("-0123456789") != std::string::npos || digits.size() > 8) continue;
-    const int frame = std::atoi(digits.c_str());
-    if (fs::path(path_of(frame)).filename() == name) frames.push_back(frame);
-  }
+  for (const fs::directory_entry& entry : entries)
+    if (const auto frame = number_in(entry.path().filename().string())) frames.push_back(*frame);
   std::sort(frames.begin(), frames.end());
   return frames;
 }

@@ -1,6 +1,7 @@
 // Which frames of a sequence, and what their files are called.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,12 +25,17 @@ class FramePattern {
   bool has_place() const { return digits_ > 0; }
   /// The name of a frame's file; numbers longer than the place have all their digits.
   std::string path_of(int frame) const;
+  /// Whether a file is one of a frame: any frame.
+  bool names(const std::string& path) const;
   /// The frames whose files are there, rising. Throws Error(input) where the folder cannot be read.
   std::vector<int> existing() const;
   /// The same, none of a folder that does not let itself be listed.
   std::vector<int> listed() const;
 
  private:
+  /// The frame of a file of this name in the pattern's folder.
+  std::optional<int> number_in(const std::string& name) const;
+
   std::string text_, before_, after_;
   std::size_t digits_ = 0;
 };

@@ -86,12 +86,31 @@ Values wanted_samples(const SampleBuffer& frame) {
   return std::move(wanted);
 }
 
+/// Of an estimate without a number anywhere, or with one below 0, nothing follows.
+void check_errors(const Image& estimate, std::size_t column) {
+  const auto width = static_cast<std::size_t>(estimate.data_window.width);
+  bool is_any_finite = false;
+  for (std::size_t p = 0; p < estimate.data_window.pixel_count(); ++p) {
+    const float error = estimate.pixel(p)[column];
+    is_any_finite |= std::isfinite(error);
+    if (error < 0)
+      throw Error(ErrorKind::input,
+                  fmt::format("density: the estimate's error is {} at pixel {},{}; relative errors from 0 on are "
+                              "expected, as --aov FILE --error writes them",
+                              error, estimate.data_window.x + static_cast<int>(p % width),
+                              estimate.data_window.y + static_cast<int>(p / width)));
+  }
+  if (!is_any_finite)
+    throw Error(ErrorKind::input, "density: the estimate's error is finite nowhere; write it with --aov FILE --error");
+}
+
 /// The same for the method's own error e of its picture from n samples a pixel: e^2 falls as v / n, and e is a part of
 /// its mean at least.
 Values wanted_for(const Image& estimate, const Values& counts) {
   const auto column = estimate.find("error");
   if (!column)
     throw Error(ErrorKind::input, "density: the estimate has no channel error; write it with --aov FILE --error");
+  check_errors(estimate, *column);
   Values wanted;
   double sum = 0;
   for (std::size_t p = 0; p < counts.size(); ++p) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "rpf/error.h"
@@ -39,6 +40,25 @@ void check_window(const SamplePart& first, const SamplePart& other) {
   if (!(a == b))
     reject(fmt::format("\"{}\" has the data window {}, but \"{}\" has {}; renderings of one frame are expected",
                        other.name, text_of(b), first.name, text_of(a)));
+}
+
+/// What says where a rendering was seen from, and what its numbers mean: with another it is of another frame.
+constexpr const char* seen_from[] = {"view",           "worldToCamera",     "worldToNDC",    "rpf:worldOrigin",
+                                     "rpf:lensRadius", "rpf:focusDistance", "chromaticities"};
+
+/// An attribute that only one has says nothing, but for the origin, which is 0 where it is not given.
+void check_camera(const SamplePart& first, const SamplePart& other) {
+  for (const std::string name : seen_from) {
+    const auto value_of = [&](const SamplePart& part) -> std::optional<Attribute> {
+      const auto found = part.samples.metadata.find(name);
+      if (found != part.samples.metadata.end()) return found->second;
+      return name == "rpf:worldOrigin" ? std::optional<Attribute>(std::vector<float>(3, 0.0F)) : std::nullopt;
+    };
+    const auto a = value_of(first), b = value_of(other);
+    if (a && b && *a != *b)
+      reject(fmt::format("\"{}\" has another {} than \"{}\"; renderings of one frame by one camera are expected",
+                         other.name, name, first.name));
+  }
 }
 
 std::string seeds_of(const SampleBuffer& samples) {
@@ -112,6 +132,7 @@ void reorder(SampleBuffer& samples, const SampleLayout& layout) {
 
 void check_alike(const SamplePart& first, const SamplePart& other) {
   check_window(first, other);
+  check_camera(first, other);
   check_slots(first, other);
   check_slots(other, first);
 }

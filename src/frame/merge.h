@@ -9,7 +9,8 @@
 
 namespace rpf {
 
-/// Throws Error(input) where data windows or slots of two renderings differ; does not look at their samples.
+/// Throws Error(input) where data windows, slots, view or camera of two renderings differ; does not look at their
+/// samples.
 void check_alike(const SamplePart& first, const SamplePart& other);
 
 /// Throws Error(input) where all parts together, of which one is `first`, hold more than a file can.

@@ -25,10 +25,7 @@ void check_image_format(const PlannedOutput& output) {
 void check_format(const PlannedOutput& output) {
   if (output.kind == OutputKind::image) check_image_format(output);
   if (output.kind == OutputKind::samples) io::sample_format_of(output.path);
-  if (output.kind == OutputKind::page && io::find_format(output.path) != nullptr)
-    throw Error(ErrorKind::usage, fmt::format("\"{}\" has the name of an image, but text would be written to it; name "
-                                              "a page .html, facts .json",
-                                              output.path));
+  if (output.kind == OutputKind::page) check_text_name(output.path);
 }
 
 /// Where a file can be made before the work: in the folder, or where that will be made.
@@ -70,6 +67,14 @@ void check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<
 }
 
 std::string file_identity(const std::string& path) { return io::input_place(path).identity(); }
+
+void check_text_name(const std::string& path) {
+  if (io::find_format(path) == nullptr && io::extension_of(path) != ".rpf") return;
+  throw Error(ErrorKind::usage,
+              fmt::format("\"{}\" has the name of an image or of samples, but text would be written to "
+                          "it; name a page .html, facts .json, a log .jsonl",
+                          path));
+}
 
 void check_target(const std::string& path) { io::output_place(path); }
 

@@ -132,7 +132,13 @@ class AdaptTest(CommandCase):
             self.expect(run("adapt", damaged, "--until", "1e9", "--", *SCENE), code, text)
 
     def test_a_signal_ends_the_renderer_and_leaves_what_was_there(self):
-        script = f"touch '{self.folder}/started'; exec sleep 60 {ALL_WORDS}"
+        begun = f"touch '{self.folder}/started';"
+        for script in (f"{begun} exec sleep 60 {ALL_WORDS}", f"{begun} sleep 60 {ALL_WORDS}; true", f"trap '' TERM; {begun} sleep 60; : {ALL_WORDS}",
+                       f"exec >/dev/null; {begun} sleep 60; : {ALL_WORDS}"):
+            with self.subTest(script):
+                self.expect_to_end(script)
+
+    def expect_to_end(self, script):
         process = subprocess.Popen([RPF, "adapt", self.file, "--", "sh", "-c", script], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL)
         while not (self.folder / "started").exists():
             self.assertIsNone(process.poll())

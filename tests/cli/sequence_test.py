@@ -116,6 +116,12 @@ class SequenceTest(CommandCase):
         self.expect(run(pattern, "-o", result, "--frames", "0", "--log-json", self.folder / "s.11.exr"), 2, "--log-json", "another frame")
         self.assertEqual({path: path.read_bytes() for path in self.folder.iterdir()}, before)
 
+    def test_a_log_is_no_result_of_a_frame_that_is_not_filtered_now(self):
+        self.expect(self.filter("-q"), 0)
+        for log in (self.frame(2), self.frame(99), self.folder / "other.png", self.folder / "other.rpf"):
+            self.expect(self.filter("--frames", "1", "--log-json", log), 2, "--log-json" if "other" not in log.name else "has the name", log.name)
+        self.assertEqual(self.frame(2).read_bytes(), self.singles[2])
+
     def test_a_log_is_a_file_that_may_be_written_to(self):
         pipe, kept = self.folder / "pipe", self.folder / "kept.log"
         os.mkfifo(pipe)

@@ -194,7 +194,7 @@ class TargetsTest(CommandCase):
         self.expect_refused(2, "--crop 4x4+6+0", "8x6+0+0", arguments=[*FAST, "--dry-run", self.samples, "-o", self.output, "--crop", "4x4+6+0"])
         for arguments in ([*FAST, self.samples, "-o", self.output, "--report"], ["facts", self.samples, "-o"],
                           ["report", self.samples, self.samples, "-o"]):
-            self.expect_refused(2, "p.png", "name of an image", arguments=[*arguments, self.folder / "p.png"])
+            self.expect_refused(2, "p.png", "name of an image or of samples", arguments=[*arguments, self.folder / "p.png"])
         write_raw(self.samples, frame(17000, 1, 1), 17000, 1, 1)
         self.expect_refused(4, "16383", arguments=[*FAST, "--dry-run", self.samples, "-o", self.folder / "wide.webp"])
 

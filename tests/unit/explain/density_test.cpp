@@ -110,5 +110,18 @@ TEST(Density, RefusesWhatItCannotTell) {
   EXPECT_THROW(sample_density(defocused_edge(), 0), Error);
 }
 
+TEST(Density, RefusesAnEstimateThatIsNone) {
+  const SampleBuffer samples = half_noisy();
+  Image estimate;
+  estimate.data_window = samples.data_window;
+  estimate.channels = {"error"};
+  estimate.pixels.assign(samples.data_window.pixel_count(), std::numeric_limits<float>::quiet_NaN());
+  EXPECT_THROW(sample_density(samples, 4, estimate), Error);
+  estimate.pixels[0] = 0.1F;
+  EXPECT_NO_THROW(sample_density(samples, 4, estimate));
+  estimate.pixels[1] = -0.1F;
+  EXPECT_THROW(sample_density(samples, 4, estimate), Error);
+}
+
 }  // namespace
 }  // namespace rpf

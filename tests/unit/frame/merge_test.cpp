@@ -68,6 +68,24 @@ TEST(Merge, KeepsEverySampleOfTheFirstThenOfTheSecond) {
   }
 }
 
+TEST(Merge, RefusesAnotherCamera) {
+  const SampleBuffer a = frame(1, 0);
+  for (const auto& [name, value] : Metadata{{"view", std::string("left")},
+                                            {"rpf:worldOrigin", std::vector<float>{1, 2, 3}},
+                                            {"worldToNDC", std::vector<float>(16, 0.5F)}}) {
+    SampleBuffer named = a, other = frame(2, 3);
+    named.metadata[name] = other.metadata[name] = value;
+    EXPECT_NO_THROW(merge_samples({{"a.exr", named}, {"b.exr", other}})) << name;
+    other.metadata[name] = value.index() == 2 ? Attribute("right") : Attribute(std::vector<float>(3, 9.0F));
+    EXPECT_NE(merge_error(named, other).find("\"b.exr\" has another " + name), std::string::npos);
+  }
+  SampleBuffer moved = frame(2, 3);
+  moved.metadata["rpf:worldOrigin"] = std::vector<float>{1, 2, 3};
+  EXPECT_NE(merge_error(a, moved), "");  // no origin is 0
+  moved.metadata["rpf:worldOrigin"] = std::vector<float>(3, 0.0F);
+  EXPECT_NO_THROW(merge_samples({{"a.exr", a}, {"b.exr", moved}}));
+}
+
 TEST(Merge, RowByRowMakesTheSame) {
   const SampleBuffer a = frame(1, 0), b = frame(2, 3);
   SampleBuffer c = frame(3, 1);
