@@ -73,7 +73,7 @@ Result filter_rows(SampleRows& rows, const Settings& settings, const std::string
 /// What `rpf info` says of the values of a frame.
 struct RowSurvey {
   std::vector<ChannelSurvey> channels;  ///< as of survey()
-  std::vector<InputNote> notes;         ///< as of check_conventions()
+  std::vector<InputNote> notes;         ///< what filter() would say of the samples
 };
 
 /// Reads every row once, some at a time. Throws Error(input).

@@ -39,13 +39,16 @@ std::string list_of(const std::vector<char>& columns, const SampleLayout& layout
   return fmt::format("{}{}", fmt::join(names, " "), rest);
 }
 
-std::vector<InputNote> notes_of(const CleanFindings& findings, const SampleBuffer& samples, bool clamp_negative) {
+/// `has_color`: of any pixel; lost pixels have none to be filled with else.
+std::vector<InputNote> notes_of(const CleanFindings& findings, const SampleBuffer& samples, bool clamp_negative,
+                                bool has_color) {
   std::vector<InputNote> notes;
   const auto tell = [&](const Tally& tally, const std::string& what) { tally.tell(what, samples.data_window, notes); };
   tell(findings.infinite, "infinite radiance values, taken for the largest of their type");
   tell(findings.not_finite, "samples left out: R, G or B not finite");
   tell(findings.no_weight, "samples left out: weight not a number from 0 to 1e15");
-  tell(findings.lost, "pixels that lost all their samples, filled from their neighbors");
+  tell(findings.lost, has_color ? "pixels that lost all their samples, filled from their neighbors"
+                                : "pixels that lost all their samples, black: no pixel has any left");
   tell(findings.empty, "pixels without samples, black");
   tell(findings.weightless, "pixels whose samples all have weight 0");
   tell(findings.negative, clamp_negative ? "negative radiance values, set to 0" : "negative radiance values, kept");
@@ -199,14 +202,13 @@ CleanReport Cleaning::report() {
   report.has_color = report.lost.empty() || find_lost_colors(frame_.data_window, colors_, report.lost);
   if (!report.has_color) {  // of the whole frame
     report.lost.clear();
-    findings_.empty = std::exchange(findings_.lost, {});
     most_samples_ = 0;
   }
   report.most_samples = most_samples_;
   report.brightest = findings_.brightest;
   report.lacks_positions = lacks_positions();
   report.notes = conventions_.notes(frame_.data_window);
-  std::vector<InputNote> found = notes_of(findings_, frame_, clamp_negative_);
+  std::vector<InputNote> found = notes_of(findings_, frame_, clamp_negative_, report.has_color);
   std::move(found.begin(), found.end(), std::back_inserter(report.notes));
   return report;
 }

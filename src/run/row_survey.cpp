@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "frame/clean.h"
-#include "frame/conventions.h"
 #include "rpf/rows.h"
 #include "run/row_scan.h"
 
@@ -29,7 +28,8 @@ void include(ChannelSurvey& all, const ChannelSurvey& part, bool is_first, std::
 
 RowSurvey survey_rows(SampleRows& rows) {
   const SampleBuffer& frame = rows.frame();
-  Conventions conventions(frame);
+  const Columns columns = find_columns(frame, false);
+  Cleaning cleaning(frame, columns, {});
   RowSurvey result;
   for (const std::string& slot : frame.layout.slots) {
     result.channels.emplace_back();
@@ -38,17 +38,16 @@ RowSurvey survey_rows(SampleRows& rows) {
   std::vector<char> any_finite(frame.layout.size(), 0);
   for (int row = 0, end = 0; row < frame.data_window.height; row = end) {
     end = rows.end_within(row, bytes_at_once);
-    const SampleBuffer part = rows.read(row, end);
+    SampleBuffer part = rows.read(row, end);
     const std::size_t first = first_pixel(part.data_window, frame.data_window);
-    for (std::size_t place = 0; place + 1 < part.first_sample.size(); ++place)
-      conventions.add_all(part, place, first + place);
     const std::vector<ChannelSurvey> found = survey(part);
     for (std::size_t c = 0; c < found.size(); ++c) {
       include(result.channels[c], found[c], any_finite[c] == 0, part.sample_count(), static_cast<std::int64_t>(first));
       if (found[c].non_finite < part.sample_count()) any_finite[c] = 1;
     }
+    cleaning.add(part);
   }
-  result.notes = conventions.notes(frame.data_window);
+  result.notes = cleaning.report().notes;
   return result;
 }
 

@@ -174,6 +174,21 @@ class ConventionsTest(CommandCase):
             self.expect(result, 0)
             self.assertNotIn("missing", result.stderr)
 
+    def test_info_says_of_samples_what_the_filter_says(self):
+        at = slice(SPP * (W + 2), SPP * (W + 2) + 2)
+        for name, value, text in (("feature.N.X", np.nan, "missing values of feature.N.X"), ("weight", -1, "weight not a number from 0"), ("A", np.nan, "values of alpha not finite"),
+                                  ("R", np.nan, "R, G or B not finite"), ("R", -1, "negative radiance values"), ("film.X", np.nan, "missing values of film.X")):
+            channels = {**frame(), "weight": np.ones(W * H * SPP, "<f4"), "A": np.ones(W * H * SPP, "<f4")}
+            channels[name][at] = value
+            self.expect_note(channels, text, ": 2 (first at pixel 2,1)")
+
+    def test_a_frame_that_lost_all_its_samples_is_called_so(self):
+        channels = frame()
+        channels["G"][:] = np.nan
+        notes = self.notes(channels)
+        self.assertEqual(len(notes), 2, notes)
+        self.assertIn(f"pixels that lost all their samples, black: no pixel has any left: {W * H} (first at pixel 0,0)", notes[1])
+
     def test_missing_values_at_hits_are_one_line(self):
         channels = frame()
         at = SPP * (W + 2)
