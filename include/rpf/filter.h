@@ -94,7 +94,7 @@ struct FrameSize {
 };
 
 /// Peak bytes of reading the slots of `layout` and filtering such a frame, none of its channels being constant. Throws
-/// Error(usage) as filter() does.
+/// Error(usage), and Error(input) for an error that could not be estimated, as filter() does.
 std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings);
 
 /// The names accepted by Settings::backend, "auto" among them.

@@ -137,15 +137,16 @@ Command add_compare_command(CLI::App& app) {
       "compare",
       "Measure images against a reference: relMSE, MSE, energy, trimmed relMSE, MAE, PSNR, SSIM, FLIP, HDR-FLIP");
   command->add_option("IMAGES", options->files, "Images, the reference last")->required();
-  command
-      ->add_option("--side-by-side", options->side_by_side,
-                   "Also write all of them in a row, and a zoomed crop of each below")
-      ->type_name("FILE.png");
+  CLI::Option* side_by_side = command
+                                  ->add_option("--side-by-side", options->side_by_side,
+                                               "Also write all of them in a row, and a zoomed crop of each below")
+                                  ->type_name("FILE.png");
   command
       ->add_option("--zoom", options->zoom,
                    "The crop of --side-by-side in the reference's coordinates, or none; if not given, where the first "
                    "image's error is largest")
-      ->type_name("WxH+X+Y");
+      ->type_name("WxH+X+Y")
+      ->needs(side_by_side);
   command->add_option("--diff", options->diff, "Also write heat maps of the relative squared error, with a legend")
       ->type_name("FILE.png");
   add_memory_option(*command, options->max_memory_mb);

@@ -48,7 +48,7 @@ int run(const Options& o) {
   SampleReadOptions read_options = read_options_of(o.map, memory_limit(o.max_memory_mb));
   read_options.slots = std::vector<std::string>{"R", "G", "B", "film.X", "film.Y"};
   const SampleFileInfo info = inspect_samples(o.input, read_options);
-  check_need(info, "density", bytes_of(info, read_options.slots->size(), o.estimate), read_options.max_memory);
+  check_need(info, "density", bytes_of(info, read_options.slots->size(), o.estimate), read_options.max_memory, "");
   check_outputs({{o.output, OutputKind::image, {"Y"}, info.data_window}}, inputs_of(o));
   const Image density = density_of(o, read_options);
   const SignalGuard guard;  // a signal now waits until the file is whole

@@ -56,7 +56,7 @@ void check_sequence_files(const std::vector<FrameTask>& tasks, const std::vector
                                 "frame's is a file of another",
                                 file.option, task.name, path, reader->second));
       const auto [writer, is_new] = writers.emplace(identity, name);
-      if (!is_new && writer->second != name)  // of one frame they are compared with all else that it writes
+      if (!is_new)
         throw Error(
             ErrorKind::usage,
             fmt::format("{} of frame {}: \"{}\" is written by {} too; name results so that no frame's is a file "

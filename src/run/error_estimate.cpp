@@ -88,16 +88,6 @@ std::vector<double> pixels_in_both(const SampleBuffer& samples, const Window& im
   return both;
 }
 
-/// Each half has to have what the method needs.
-void check_halves(const SampleBuffer& samples, Method method) {
-  const std::uint32_t least = filters_pixels(method) && method != Method::axis_aligned ? 4 : 2;
-  if (frame_size(samples).max_samples_per_pixel < least)
-    throw Error(ErrorKind::input,
-                fmt::format("no pixel has {} samples, which two halves need to tell the error; render "
-                            "with as many, or leave --error out",
-                            least));
-}
-
 /// Variance of the filtered frame and the square of its bias, relative to the image: (10.1) and (10.2).
 struct Parts {
   double variance = 0, bias = 0;
@@ -168,9 +158,18 @@ void add_error(Result& result, const std::vector<float>& errors) {
 
 }  // namespace
 
+void check_halves(const FrameSize& size, Method method) {
+  const std::uint32_t least = filters_pixels(method) && method != Method::axis_aligned ? 4 : 2;
+  if (size.max_samples_per_pixel < least)
+    throw Error(ErrorKind::input,
+                fmt::format("no pixel has {} samples, which two halves need to tell the error; render "
+                            "with as many, or leave --error out",
+                            least));
+}
+
 Result filter_with_error(SampleBuffer samples, const Settings& settings, const Control& control) {
   samples.validate();
-  check_halves(samples, settings.method);
+  check_halves(frame_size(samples), settings.method);
   constexpr double share = 0.25;  // of a half; the whole has as much work as both
   const Half a = filtered_half(half_of(samples, 0), settings, part_of(control, 0, share));
   const Half b = filtered_half(half_of(samples, 1), settings, part_of(control, share, share));

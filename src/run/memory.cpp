@@ -14,6 +14,7 @@
 #include "rpf/io.h"
 #include "rpf/methods.h"
 #include "run/backends.h"
+#include "run/error_estimate.h"
 #include "run/estimate_bands.h"
 #include "run/streamed_frame.h"
 #include "seam/backend.h"
@@ -126,6 +127,7 @@ std::size_t carried_count(const SampleLayout& layout, const Settings& settings) 
 }
 
 std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {
+  if (settings.estimate_error) check_halves(size, settings.method);
   const std::uint64_t halves = settings.estimate_error
                                    ? size.samples * (layout.size() + spare_columns) * word  // one, and its plain mean's
                                    : 0;

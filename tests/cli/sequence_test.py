@@ -113,6 +113,7 @@ class SequenceTest(CommandCase):
         result = self.folder / "o.%d.exr"
         for option in ("--aov", "--report"):
             self.expect(run(pattern, "-o", result, option, self.folder / "o.1%d.exr", "--frames", "0,10"), 2, "o.10.exr", "is written by", "too")
+        self.expect(run(pattern, "-o", self.folder / "w.%d.exr", "--aov", self.folder / "w.%02d.exr", "--frames", "0,10"), 2, "w.10.exr", "is written by", "too")
         self.expect(run(pattern, "-o", result, "--frames", "0", "--log-json", self.folder / "s.11.exr"), 2, "--log-json", "another frame")
         self.assertEqual({path: path.read_bytes() for path in self.folder.iterdir()}, before)
 

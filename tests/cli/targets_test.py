@@ -195,6 +195,8 @@ class TargetsTest(CommandCase):
         for arguments in ([*FAST, self.samples, "-o", self.output, "--report"], ["facts", self.samples, "-o"],
                           ["report", self.samples, self.samples, "-o"]):
             self.expect_refused(2, "p.png", "name of an image or of samples", arguments=[*arguments, self.folder / "p.png"])
+        write_raw(self.samples, frame(8, 6, 1), spp=1)
+        self.expect_refused(3, "no pixel has 2 samples", arguments=[*FAST, "--dry-run", self.samples, "-o", self.output, "--aov", self.folder / "a.exr", "--error"])
         write_raw(self.samples, frame(17000, 1, 1), 17000, 1, 1)
         self.expect_refused(4, "16383", arguments=[*FAST, "--dry-run", self.samples, "-o", self.folder / "wide.webp"])
 
