@@ -9,6 +9,7 @@ from pathlib import Path
 from pages import Block, blocks, pages
 
 RPF, PROJECT = (Path(argument).resolve() for argument in sys.argv[1:])
+SECONDS = 3000 if b"__asan_init" in RPF.read_bytes() else 300  # of a page; sanitizers are slow
 PREPARED = {  # what pages take for granted, and what makes it in the page's folder
     "render.samples.exr": "rpf scene dof --size 48x36 -o render.samples.exr",
     "frame.samples.exr": "rpf scene dof --size 48x36 -o frame.samples.exr",
@@ -21,7 +22,7 @@ PREPARED = {  # what pages take for granted, and what makes it in the page's fol
 def shell(script, folder):
     path = f"{folder}/build/release:{os.environ['PATH']}"
     return subprocess.run(["bash", "-euo", "pipefail", "-xc", script], cwd=folder, env={**os.environ, "PATH": path}, stdin=subprocess.DEVNULL,
-                          capture_output=True, text=True, check=False, timeout=300)
+                          capture_output=True, text=True, check=False, timeout=SECONDS)
 
 
 def prepare(folder, script):
