@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "rpf/density.h"
 #include "rpf/error.h"
@@ -59,6 +60,9 @@ SweepPlan parse(const std::string& path, const Json& json, const std::string& sc
 }  // namespace
 
 SweepPlan read_sweep_plan(const std::string& path, const std::string& scene_folder) {
+  std::error_code unknown;  // opening a pipe would wait for whoever writes to it
+  if (fs::exists(path, unknown) && !fs::is_regular_file(path, unknown))
+    refuse(path, "is a folder, a pipe or a device; name a regular file");
   std::ifstream file(path);
   if (!file) throw Error(ErrorKind::input, fmt::format("sweep plan \"{}\" cannot be read", path));
   try {

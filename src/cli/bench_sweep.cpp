@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 /// Measures what one round still lacks.
 class Sweep {
  public:
-  Sweep(bench::SweepPlan plan, const std::string& output) : plan_(std::move(plan)), results_(output) {}
+  Sweep(bench::SweepPlan plan, const std::string& output) : plan_(std::move(plan)), results_(output, "frame") {}
 
   void run_round(int round) {
     for (const bench::SweepFrame& frame : plan_.frames)

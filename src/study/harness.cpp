@@ -98,7 +98,7 @@ class Meter {
 class Measuring {
  public:
   Measuring(std::vector<Run> runs, const fs::path& folder, const StudyOptions& options, const std::string& results)
-      : runs_(std::move(runs)), folder_(folder), options_(options), results_(results) {}
+      : runs_(std::move(runs)), folder_(folder), options_(options), results_(results, "label") {}
 
   std::size_t missing() const {
     std::size_t count = 0;

@@ -1,5 +1,6 @@
 """rpf bench as a user runs it. No test looks at how long anything took. Usage: bench_test.py RPF PROJECT"""
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -137,6 +138,17 @@ class BenchTest(CommandCase):
         self.assertFalse(self.results.exists(), "a wrong option shows before anything is made")
         self.expect(self.sweep(settings={"no lens": "--random no-such"}), 2, "tiny, no lens: ", "no-such")
         self.expect(run("sweep", self.folder / "none.json", "-o", self.results), 3, "none.json")
+
+    def test_sweep_leaves_alone_what_is_not_its_results(self):
+        for text in ("my notes", '{"a": 1}', "{", '{"key":"mine"}\nand more'):
+            self.results.write_text(text)
+            self.expect(self.sweep(), 3, "no result of rpf bench sweep", "another file")
+            self.assertEqual(self.results.read_text(), text)
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        for path, kind in ((self.folder, "a folder"), (pipe, "a pipe")):
+            self.expect(run("sweep", self.plan(), "-o", path), 4, kind)
+            self.expect(run("sweep", path, "-o", self.folder / "other"), 3, kind)
 
 
 if __name__ == "__main__":

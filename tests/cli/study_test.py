@@ -147,6 +147,18 @@ class StudyTest(CommandCase):
         for line in results.read_text().splitlines():
             json.loads(line)
 
+    def test_what_is_not_its_results_stays(self):
+        self.study.mkdir()
+        self.results.write_text("my notes")
+        self.expect(self.features(), 3, "no result of rpf bench sweep or rpf study")
+        self.assertEqual(self.results.read_text(), "my notes")
+        self.results.write_text("")
+        self.results.chmod(0o444)
+        self.expect(self.features(), 4, "write-protected")
+        self.results.unlink()
+        os.mkfifo(self.results)
+        self.expect(self.features(), 4, "a pipe or socket")
+
     # ---- contemporaries
 
     def contemporaries(self, libraries=""):
