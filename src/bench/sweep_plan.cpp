@@ -12,6 +12,7 @@
 #include "rpf/density.h"
 #include "rpf/error.h"
 #include "rpf/io.h"
+#include "rpf/rows.h"
 
 namespace rpf::bench {
 namespace {
@@ -93,11 +94,16 @@ SceneOptions scene_options(const SweepFrame& frame, int samples, SceneSampler sa
   return options;
 }
 
-SampleBuffer render_samples(const SweepFrame& frame, const Control& control) {
+SceneOptions sample_options(const SweepFrame& frame) {
   SceneOptions options =
       scene_options(frame, frame.adapted ? adapted_from : frame.samples_per_pixel, SceneSampler::random);
   options.penumbra = frame.penumbra;
   options.lightfield = frame.lightfield;
+  return options;
+}
+
+SampleBuffer render_samples(const SweepFrame& frame, const Control& control) {
+  SceneOptions options = sample_options(frame);
   SampleBuffer samples = render_scene(frame.scene, options, control);
   options.samples = 1;
   for (int count = adapted_from, more = 0; frame.adapted && count < frame.samples_per_pixel; count += more) {
@@ -122,7 +128,8 @@ void make_reference(const SweepFrame& frame, const Control& control) {
 void make_scene_files(const SweepFrame& frame, const Control& control) {
   if (frame.scene.empty()) return;
   fs::create_directories(fs::path(frame.samples).parent_path());
-  if (!fs::exists(frame.samples)) write_samples(frame.samples, render_samples(frame, control));
+  if (!fs::exists(frame.samples))  // by rows: writing asks the control between them
+    write_sample_rows(frame.samples, *open_scene_rows(frame.scene, sample_options(frame)), {}, control);
   make_reference(frame, control);
 }
 

@@ -61,6 +61,18 @@ class BenchTest(CommandCase):
     def test_frames_renders_a_scene_where_no_file_is_named(self):
         self.expect(run("frames", "--size", "24x16", "--rounds", "1", "--set", "x=--boxes 3"), 0, "dof 24x16")
 
+    def test_frames_stops_while_its_scene_is_made(self):
+        for command, delay in (("frames", 0.5), ("frames", 4), ("ab", 4)):
+            process = subprocess.Popen([RPF, "bench", command, "--size", "1920x1080"], stderr=subprocess.PIPE,
+                                       env={**os.environ, "TMPDIR": str(self.folder)})
+            time.sleep(delay)
+            start = time.monotonic()
+            process.send_signal(signal.SIGTERM)
+            process.communicate()
+            self.assertLess(time.monotonic() - start, 5)  # 2 s where the machine is not busy
+            self.assertEqual(process.returncode, 143)
+            self.assertEqual(list(self.folder.iterdir()), [])
+
     def test_wrong_settings_are_named(self):
         self.expect(run("frames", EXAMPLE, "--set", "wrong=--boxen 5"), 2, "wrong", "--boxen")
         self.expect(run("frames", EXAMPLE, "--set", "even=--boxes 4"), 2, "--boxes 4")
