@@ -73,6 +73,14 @@ class BenchTest(CommandCase):
             self.assertEqual(process.returncode, 143)
             self.assertEqual(list(self.folder.iterdir()), [])
 
+    def test_memory_is_compared_before_a_scene_is_rendered(self):
+        little = {**os.environ, "RPF_MAX_MEMORY_MB": "20", "TMPDIR": str(self.folder)}
+        for size, doing in (("480x270", "filtering needs"), ("4000x3000", "rendering takes")):
+            for command in ("frames", "ab"):
+                result = subprocess.run([RPF, "bench", command, "--size", size], env=little, capture_output=True, text=True, check=False)
+                self.expect(result, 6, f"dof {size}: {doing}", "the limit is 20 MB", "smaller --size")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
     def test_wrong_settings_are_named(self):
         self.expect(run("frames", EXAMPLE, "--set", "wrong=--boxen 5"), 2, "wrong", "--boxen")
         self.expect(run("frames", EXAMPLE, "--set", "even=--boxes 4"), 2, "--boxes 4")
