@@ -159,6 +159,16 @@ class BenchTest(CommandCase):
         self.expect(self.sweep(settings={"no lens": "--random no-such"}), 2, "tiny, no lens: ", "no-such")
         self.expect(run("sweep", self.folder / "none.json", "-o", self.results), 3, "none.json")
 
+    def test_sweep_checks_all_frames_before_it_renders(self):
+        good = {"name": "good", "scene": "dof", "size": "24x16"}
+        for bad, code, text in (({"scene": "nope"}, 2, "no such scene"), ({"scene": "dof", "reference_spp": 1}, 2, "reference_spp 1"),
+                                ({"scene": "dof", "spp": 0}, 2, "samples a pixel is 0"), ({"samples": "none.exr"}, 3, "none.exr"),
+                                ({"samples": str(EXAMPLE), "reference": "none.exr"}, 3, "none.exr"),
+                                ({"scene": "dof", "size": "9000x9000", "spp": 4000}, 2, "choose a smaller")):
+            self.expect(self.sweep(frames=[good, {"name": "bad", **bad}]), code, "bad, mean: ", text)
+            self.assertEqual(self.results.read_text(), "")
+            self.assertFalse((self.folder / "results.jsonl.scenes").exists())
+
     def test_sweep_leaves_alone_what_is_not_its_results(self):
         for text in ("my notes", '{"a": 1}', "{", '{"key":"mine"}\nand more'):
             self.results.write_text(text)
