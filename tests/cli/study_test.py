@@ -3,6 +3,7 @@ import json
 import os
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
@@ -158,6 +159,25 @@ class StudyTest(CommandCase):
         self.results.unlink()
         os.mkfifo(self.results)
         self.expect(self.features(), 4, "a pipe or socket")
+
+    def test_targets_are_checked_before_the_work(self):
+        def spoil(path, kind):
+            path.parent.mkdir()
+            if kind == "folder":
+                path.mkdir()
+            elif kind == "pipe":
+                os.mkfifo(path)
+            else:
+                path.write_text("")
+                path.chmod(0o444)
+        for name, kind, text in (("features.html", "protected", "write-protected"), ("features.html", "folder", "a folder"),
+                                 ("features.json", "protected", "write-protected"), ("features.json", "pipe", "a pipe"),
+                                 ("features.runs.jsonl", "folder", "a folder"), ("features.pictures", "file", "features.pictures"),
+                                 ("images", "file", "images"), ("scenes", "file", "scenes"), ("index.html", "pipe", "a pipe")):
+            spoil(self.study / name, kind)
+            self.expect(run("all" if name == "index.html" else "features", "-o", self.study, *SIZE), 4, text)
+            self.assertEqual([path.name for path in self.study.iterdir()], [name])
+            shutil.rmtree(self.study)
 
     # ---- contemporaries
 
