@@ -10,9 +10,11 @@ namespace rpf::bench {
 
 class ResultsFile {
  public:
-  /// Reads what is there. A last line without its end, which a killed run leaves, is cut off. Throws Error(input) for a
-  /// line that is not an object with a text "key", Error(output) where the file cannot be written.
-  explicit ResultsFile(std::string path);
+  /// Reads what is there: lines whose objects have `first_key`, the key that a line begins with, and a text "key". A
+  /// last line without its end, which a killed run leaves, is cut off; it is behind others or begins with `first_key`.
+  /// Throws Error(input) for any other file, which stays as it is, Error(output) where the file cannot be written or is
+  /// none.
+  ResultsFile(std::string path, const std::string& first_key);
 
   bool has(const std::string& key) const { return keys_.count(key) > 0; }
   const std::vector<nlohmann::ordered_json>& lines() const { return lines_; }

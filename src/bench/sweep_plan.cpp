@@ -7,10 +7,12 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "rpf/density.h"
 #include "rpf/error.h"
 #include "rpf/io.h"
+#include "rpf/rows.h"
 
 namespace rpf::bench {
 namespace {
@@ -59,6 +61,9 @@ SweepPlan parse(const std::string& path, const Json& json, const std::string& sc
 }  // namespace
 
 SweepPlan read_sweep_plan(const std::string& path, const std::string& scene_folder) {
+  std::error_code unknown;  // opening a pipe would wait for whoever writes to it
+  if (fs::exists(path, unknown) && !fs::is_regular_file(path, unknown))
+    refuse(path, "is a folder, a pipe or a device; name a regular file");
   std::ifstream file(path);
   if (!file) throw Error(ErrorKind::input, fmt::format("sweep plan \"{}\" cannot be read", path));
   try {
@@ -89,11 +94,16 @@ SceneOptions scene_options(const SweepFrame& frame, int samples, SceneSampler sa
   return options;
 }
 
-SampleBuffer render_samples(const SweepFrame& frame, const Control& control) {
+SceneOptions sample_options(const SweepFrame& frame) {
   SceneOptions options =
       scene_options(frame, frame.adapted ? adapted_from : frame.samples_per_pixel, SceneSampler::random);
   options.penumbra = frame.penumbra;
   options.lightfield = frame.lightfield;
+  return options;
+}
+
+SampleBuffer render_samples(const SweepFrame& frame, const Control& control) {
+  SceneOptions options = sample_options(frame);
   SampleBuffer samples = render_scene(frame.scene, options, control);
   options.samples = 1;
   for (int count = adapted_from, more = 0; frame.adapted && count < frame.samples_per_pixel; count += more) {
@@ -118,7 +128,8 @@ void make_reference(const SweepFrame& frame, const Control& control) {
 void make_scene_files(const SweepFrame& frame, const Control& control) {
   if (frame.scene.empty()) return;
   fs::create_directories(fs::path(frame.samples).parent_path());
-  if (!fs::exists(frame.samples)) write_samples(frame.samples, render_samples(frame, control));
+  if (!fs::exists(frame.samples))  // by rows: writing asks the control between them
+    write_sample_rows(frame.samples, *open_scene_rows(frame.scene, sample_options(frame)), {}, control);
   make_reference(frame, control);
 }
 

@@ -47,13 +47,17 @@ void name_scene_files(SweepFrame& frame, const std::string& folder);
 /// How a scene is rendered: its samples by SceneSampler::random, its reference by SceneSampler::sobol.
 SceneOptions scene_options(const SweepFrame& frame, int samples, SceneSampler sampler);
 
+/// How its samples are rendered, those of the first round where the frame is adapted.
+SceneOptions sample_options(const SweepFrame& frame);
+
 /// Renders the samples of a scene. Throws as render_scene() does.
 SampleBuffer render_samples(const SweepFrame& frame, const Control& control);
 
 /// Renders the reference of a scene where its file is not there. Throws as render_reference() and write_image() do.
 void make_reference(const SweepFrame& frame, const Control& control);
 
-/// Renders the files of a scene that are not there. Throws as render_scene() and the writers do.
+/// Renders the files of a scene that is not adapted where they are not there. Throws as render_scene() and the writers
+/// do.
 void make_scene_files(const SweepFrame& frame, const Control& control);
 
 /// Whether the plan wants this setting on this frame.

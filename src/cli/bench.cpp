@@ -12,13 +12,54 @@
 #include <tuple>
 
 #include "cli/filter_options.h"
+#include "cli/needs.h"
+#include "cli/numbers.h"
 #include "cli/signals.h"
 #include "rpf/error.h"
+#include "rpf/io.h"
 
 namespace rpf::cli {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// A file of a scene that is still to be rendered.
+bool is_to_come(const bench::SweepFrame& frame, const std::string& file) {
+  return !frame.scene.empty() && !fs::exists(file);
+}
+
+Window window_of(const bench::SweepFrame& frame) { return {0, 0, frame.width, frame.height}; }
+
+/// Of samples that are still to be rendered: by rows, and then read whole and filtered.
+void check_rendering(const bench::SweepFrame& frame, const bench::FrameJob& job, const RenderingLimit& limit) {
+  const auto rows = open_scene_within(frame.scene, sample_options(frame), limit);
+  SampleFileInfo info;
+  info.path = frame.name;
+  const FrameSize size{window_of(frame).pixel_count(), rows->sample_count(),
+                       static_cast<std::uint32_t>(frame.samples_per_pixel), frame.width};
+  check_need(info, "filtering", predict_memory(size, rows->frame().layout, job.settings), limit.bytes,
+             fmt::format(" or choose a smaller {}", limit.smaller).c_str());
+}
+
+/// That the reference can be read or made, and shows what is filtered.
+void check_reference(const bench::SweepFrame& frame, const bench::FrameJob& job, const RenderingLimit& limit) {
+  if (job.reference.empty()) return;
+  const bool is_made = is_to_come(frame, job.reference);
+  if (is_made) check_reference_need(sample_options(frame), limit);
+  const Window samples =
+      is_to_come(frame, job.samples) ? window_of(frame) : inspect_samples(job.samples, job.read).data_window;
+  const Window filtered = job.settings.crop.value_or(samples);
+  const Window reference = is_made ? window_of(frame) : inspect_image(job.reference).data_window;
+  if (!(reference == filtered))
+    throw Error(ErrorKind::input,
+                fmt::format("\"{}\" filtered has the data window {}, its reference \"{}\" has {}; name "
+                            "a reference of the same frame",
+                            job.samples, text_of(filtered), job.reference, text_of(reference)));
+}
+
+}  // namespace
 
 TemporaryFolder::TemporaryFolder() {
   std::string pattern = (fs::temp_directory_path() / "rpf-bench-XXXXXX").string();
@@ -51,7 +92,6 @@ std::vector<bench::SweepFrame> frames_of(const BenchFrames& options, const std::
   frame.name = options.scene + " " + options.size;
   std::tie(frame.width, frame.height) = size_of(options.size);
   bench::name_scene_files(frame, folder);
-  bench::make_scene_files(frame, stoppable());
   return {frame};
 }
 
@@ -77,6 +117,18 @@ bench::FrameJob job_of(const bench::SweepFrame& frame, const bench::SweepSetting
         fmt::format("setting \"{}\": options that name files or a part of a frame have no place here", setting.name));
   const Settings settings = settings_of(options);
   return {frame.samples, frame.reference, settings, read_options_of(options, settings)};
+}
+
+void check_frame(const bench::SweepFrame& frame, const bench::FrameJob& job, const char* smaller) {
+  if (frame.reference_samples != 0 && !ranges::reference_samples.has(frame.reference_samples))
+    throw Error(ErrorKind::usage,
+                fmt::format("reference_spp {}: {}", frame.reference_samples, ranges::reference_samples.expected()));
+  const RenderingLimit limit{frame.name, job.read.max_memory, smaller};
+  if (is_to_come(frame, job.samples))
+    check_rendering(frame, job, limit);
+  else
+    inspect_samples(job.samples, job.read);
+  check_reference(frame, job, limit);
 }
 
 Control stoppable() {

@@ -56,7 +56,7 @@ class TemporaryFolder {
   std::string path_;
 };
 
-/// The frames that were named, or the scene, rendered into `folder`. Throws Error(usage).
+/// The frames that were named, or the scene, to be rendered into `folder`. Throws Error(usage).
 std::vector<bench::SweepFrame> frames_of(const BenchFrames& options, const std::string& folder);
 
 /// "NAME=OPTIONS", or only options, which are their own name then.
@@ -64,6 +64,11 @@ bench::SweepSetting setting_of(const std::string& text);
 
 /// Reads `options` with the parser of the filter command. Throws Error(usage) that names the setting.
 bench::FrameJob job_of(const bench::SweepFrame& frame, const bench::SweepSetting& setting);
+
+/// Finds before anything is rendered or measured what the job would end with. Throws Error(input) where a file is
+/// missing or the reference shows something else, Error(usage) for a scene or a number of samples that cannot be,
+/// Error(memory) where rendering or filtering a scene takes more than the job may; `smaller`: what helps then.
+void check_frame(const bench::SweepFrame& frame, const bench::FrameJob& job, const char* smaller);
 
 /// Lets signals stop the work; shows nothing.
 Control stoppable();

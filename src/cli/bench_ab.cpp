@@ -37,6 +37,10 @@ void measure_rounds(Side& a, Side& b, const bench::SweepFrame& frame, int rounds
   std::vector<bench::FrameJob> jobs;  // of both, before either runs: one may be refused
   for (const Side* side : {&a, &b})
     if (side->binary.empty()) jobs.push_back(job_of(frame, side->setting));
+  // What another binary takes is its own to say; it is given files.
+  for (const bench::FrameJob& job : jobs.empty() ? std::vector{job_of(frame, {})} : jobs)
+    check_frame(frame, job, "--size");
+  make_scene_files(frame, stoppable());
   for (const bench::FrameJob& job : jobs) bench::warm_up(job, stoppable());
   for (int round = 0; round < rounds; ++round) {
     show_status(fmt::format("{}: round {} of {}", frame.name, round + 1, rounds));

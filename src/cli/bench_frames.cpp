@@ -3,8 +3,6 @@
 
 #include "cli/bench.h"
 #include "cli/signals.h"
-#include "rpf/error.h"
-#include "rpf/io.h"
 
 namespace rpf::cli {
 namespace {
@@ -19,18 +17,6 @@ struct Series {
   std::vector<double> cpu, wall, filter_cpu, filter_wall;
   bench::FrameRun first;  ///< with the errors: the image is the same in every round
 };
-
-/// Known before all is measured: that the reference can be read, and shows what is filtered.
-void check_reference(const bench::FrameJob& job) {
-  if (job.reference.empty()) return;
-  const Window filtered = job.settings.crop.value_or(inspect_samples(job.samples, job.read).data_window);
-  const Window reference = inspect_image(job.reference).data_window;
-  if (!(reference == filtered))
-    throw Error(ErrorKind::input,
-                fmt::format("\"{}\" filtered has the data window {}, its reference \"{}\" has {}; name "
-                            "a reference of the same frame",
-                            job.samples, text_of(filtered), job.reference, text_of(reference)));
-}
 
 std::vector<Series> series_of(const FramesOptions& options, const std::string& folder) {
   std::vector<std::string> sets = options.sets;
@@ -110,7 +96,8 @@ int run_frames(const FramesOptions& options) {
   const SignalGuard guard;
   const TemporaryFolder folder;
   std::vector<Series> all = series_of(options, folder.path());
-  for (const Series& series : all) check_reference(series.job);
+  for (const Series& series : all) check_frame(series.frame, series.job, "--size");
+  for (const Series& series : all) bench::make_scene_files(series.frame, stoppable());
   for (const Series& series : all) bench::warm_up(series.job, stoppable());
   for (int round = 0; round < options.rounds; ++round)
     for (Series& series : all) measure(series, round);

@@ -17,32 +17,58 @@ using Json = nlohmann::ordered_json;
 /// Measures what one round still lacks.
 class Sweep {
  public:
-  Sweep(bench::SweepPlan plan, const std::string& output) : plan_(std::move(plan)), results_(output) {}
+  Sweep(bench::SweepPlan plan, const std::string& output) : plan_(std::move(plan)), results_(output, "frame") {}
+
+  /// What the rounds lack must be possible, before anything is rendered.
+  void check_rounds(int rounds) const {
+    std::set<std::string> checked;  // a later round has no other need
+    for (int round = 0; round < rounds; ++round)
+      for_missing(round, [&](const bench::SweepFrame& frame, const bench::SweepSetting& setting) {
+        if (!checked.insert(key_of(frame, setting, 0)).second) return;
+        naming(frame, setting,
+               [&] { check_frame(frame, round_job(frame, setting, round), "size or spp in the plan"); });
+      });
+  }
 
   void run_round(int round) {
-    for (const bench::SweepFrame& frame : plan_.frames)
-      for (const bench::SweepSetting& setting : plan_.settings)
-        if (applies(setting, frame) && !results_.has(key_of(frame, setting, round))) measure(frame, setting, round);
+    for_missing(round, [&](const bench::SweepFrame& frame, const bench::SweepSetting& setting) {
+      show_status(fmt::format("round {}: {}, {}", round + 1, frame.name, setting.name));
+      naming(frame, setting,
+             [&] { results_.add(key_of(frame, setting, round), measured_line(frame, setting, round)); });
+      ++measured_;
+    });
   }
 
   std::size_t measured() const { return measured_; }
   std::size_t known() const { return results_.lines().size() - measured_; }
 
  private:
-  void measure(const bench::SweepFrame& frame, const bench::SweepSetting& setting, int round) {
-    show_status(fmt::format("round {}: {}, {}", round + 1, frame.name, setting.name));
+  template <class Work>
+  void for_missing(int round, const Work& work) const {
+    for (const bench::SweepFrame& frame : plan_.frames)
+      for (const bench::SweepSetting& setting : plan_.settings)
+        if (applies(setting, frame) && !results_.has(key_of(frame, setting, round))) work(frame, setting);
+  }
+
+  /// Runs the work; its errors say on what.
+  template <class Work>
+  static void naming(const bench::SweepFrame& frame, const bench::SweepSetting& setting, const Work& work) {
     try {
-      results_.add(key_of(frame, setting, round), measured_line(frame, setting, round));
+      work();
     } catch (const Error& e) {
       throw Error(e.kind(), fmt::format("{}, {}: {}", frame.name, setting.name, e.what()));
     }
-    ++measured_;
+  }
+
+  static bench::FrameJob round_job(const bench::SweepFrame& frame, const bench::SweepSetting& setting, int round) {
+    bench::FrameJob job = job_of(frame, setting);
+    if (round > 0) job.reference.clear();  // the image is the same in every round
+    return job;
   }
 
   Json measured_line(const bench::SweepFrame& frame, const bench::SweepSetting& setting, int round) {
     make_scene_files(frame, stoppable());
-    bench::FrameJob job = job_of(frame, setting);
-    if (round > 0) job.reference.clear();  // the image is the same in every round
+    const bench::FrameJob job = round_job(frame, setting, round);
     if (warm_.insert(frame.samples + setting.options).second) bench::warm_up(job, stoppable());
     Json line{{"frame", frame.name}, {"setting", setting.name}, {"options", setting.options}, {"round", round}};
     line.update(bench::json_of(bench::run_frame(job, stoppable())));
@@ -67,6 +93,7 @@ int run_sweep(const SweepOptions& options) {
   check_outputs({{options.output, OutputKind::page}}, inputs);
   Sweep sweep(plan, options.output);
   const int rounds = options.rounds > 0 ? options.rounds : plan.rounds;
+  sweep.check_rounds(rounds);
   for (int round = 0; round < rounds; ++round) sweep.run_round(round);
   show_status("");
   fmt::print("{}: {} measured, {} were there\n", options.output, sweep.measured(), sweep.known());

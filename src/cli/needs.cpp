@@ -7,6 +7,21 @@
 #include "rpf/error.h"
 
 namespace rpf::cli {
+namespace {
+
+void check_rendering_need(std::uint64_t need, const RenderingLimit& limit) {
+  if (need > limit.bytes)
+    throw Error(
+        ErrorKind::memory,
+        fmt::format("{}: rendering takes {:.0f} MB of memory, the limit is {:.0f} MB; choose a smaller {}", limit.who,
+                    static_cast<double>(need) / megabyte, static_cast<double>(limit.bytes) / megabyte, limit.smaller));
+}
+
+std::uint64_t pixels_of(const SceneOptions& scene) {
+  return static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
+}
+
+}  // namespace
 
 SampleLayout needed_layout(const SampleFileInfo& info, const Settings& settings) {
   SampleLayout all;
@@ -36,6 +51,19 @@ void check_images_need(const char* command, std::size_t images, std::uint64_t ne
                             "fewer or smaller ones",
                             command, images, static_cast<double>(need) / megabyte,
                             static_cast<double>(limit) / megabyte, command));
+}
+
+std::unique_ptr<SampleRows> open_scene_within(const std::string& scene, const SceneOptions& options,
+                                              const RenderingLimit& limit) {
+  const std::uint64_t counts = pixels_of(options) * sizeof(std::uint32_t);
+  check_rendering_need(counts, limit);
+  auto rows = open_scene_rows(scene, options);
+  check_rendering_need(counts + write_rows_memory(*rows), limit);
+  return rows;
+}
+
+void check_reference_need(const SceneOptions& options, const RenderingLimit& limit) {
+  check_rendering_need(pixels_of(options) * (2 * 3 * sizeof(float) + sizeof(double)), limit);  // again when written
 }
 
 std::string text_of(const RowsMemory& need) {

@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/environment.h"
 #include "cli/filter_options.h"
+#include "cli/needs.h"
 #include "cli/numbers.h"
 #include "cli/print.h"
 #include "cli/progress_bar.h"
@@ -63,23 +64,13 @@ PlannedOutput planned_output(const Options& o) {
 
 std::string progress_mode(const Options& o) { return o.quiet ? "never" : o.progress; }
 
-/// More than the machine has: refused before anything is rendered.
-void check_budget(const Options& o, std::uint64_t need) {
-  const double need_mb = static_cast<double>(need) / megabyte;
-  const double limit_mb = static_cast<double>(memory_limit(o.max_memory_mb)) / megabyte;
-  if (need_mb > limit_mb)
-    throw Error(ErrorKind::memory,
-                fmt::format("scene: rendering takes {:.0f} MB of memory, the limit is {:.0f} MB; choose a "
-                            "smaller {}--size",
-                            need_mb, limit_mb, o.reference > 0 ? "" : "--spp or "));
-}
-
-std::uint64_t pixels_of(const SceneOptions& scene) {
-  return static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
+/// More than the machine has is refused before anything is rendered.
+RenderingLimit rendering_limit(const Options& o) {
+  return {"scene", memory_limit(o.max_memory_mb), o.reference > 0 ? "--size" : "--spp or --size"};
 }
 
 void write_reference_image(const Options& o, const SceneOptions& scene) {
-  check_budget(o, pixels_of(scene) * (2 * 3 * sizeof(float) + sizeof(double)));  // again when written; their errors
+  check_reference_need(scene, rendering_limit(o));
   const Image image =
       with_progress(progress_mode(o), [&](const Control& c) { return render_reference(o.name, scene, c); });
   const SignalGuard guard;  // a signal now waits until the file is whole
@@ -90,10 +81,7 @@ void write_reference_image(const Options& o, const SceneOptions& scene) {
 }
 
 void write_sample_file(const Options& o, const SceneOptions& scene) {
-  const std::uint64_t counts = pixels_of(scene) * sizeof(std::uint32_t);
-  check_budget(o, counts);
-  const auto rows = open_scene_rows(o.name, scene);
-  check_budget(o, counts + write_rows_memory(*rows));
+  const auto rows = open_scene_within(o.name, scene, rendering_limit(o));
   with_progress(progress_mode(o), [&](const Control& c) { write_sample_rows(o.output, *rows, {}, c); });
   if (o.quiet) return;
   print("{}: {}x{} pixels, {} samples\n", o.output, scene.width, scene.height, rows->sample_count());

@@ -14,6 +14,7 @@
 #include "cli/signals.h"
 #include "report/html_page.h"
 #include "rpf/error.h"
+#include "rpf/outputs.h"
 #include "study/harness.h"
 
 namespace rpf::cli {
@@ -51,14 +52,19 @@ bool show(const std::string& name, const study::StudyProgress& p) {
   return received_signal() == 0;
 }
 
+study::StudyOptions study_options(const Options& o, const study::Experiment& experiment) {
+  return {o.folder, extent_of(o, experiment), [&o](const std::string& text) { return run_settings(o, text); }};
+}
+
 void run_one(const Options& o, const study::Experiment& experiment) {
-  const study::StudyOptions options{o.folder, extent_of(o, experiment),
-                                    [&](const std::string& text) { return run_settings(o, text); }};
-  const study::StudyDone done = study::run_experiment(
-      experiment, options, [&](const study::StudyProgress& p) { return show(experiment.name, p); });
+  const study::StudyDone done =
+      study::run_experiment(experiment, study_options(o, experiment),
+                            [&](const study::StudyProgress& p) { return show(experiment.name, p); });
   show_status("");
   print("{}: {} runs measured, {} were there\n", done.page, done.measured, done.known);
 }
+
+std::string index_of(const Options& o) { return (std::filesystem::path(o.folder) / "index.html").string(); }
 
 void write_index(const Options& o) {
   report::HtmlPage page("rpf study all");
@@ -66,9 +72,8 @@ void write_index(const Options& o) {
     page.link(fmt::format("{}.html", experiment.name), experiment.name);
     page.paragraph(experiment.question);
   }
-  const std::string file = (std::filesystem::path(o.folder) / "index.html").string();
-  page.write(file);
-  print("{}\n", file);
+  page.write(index_of(o));
+  print("{}\n", index_of(o));
 }
 
 /// A line each, every line behind `before`.
@@ -81,6 +86,9 @@ std::string list(const std::string& before) {
 
 void run_named(const Options& o) {
   if (o.name != "all") return run_one(o, study::find_experiment(o.name));
+  for (const study::Experiment& experiment : study::experiments())
+    check_experiment(experiment, study_options(o, experiment));
+  check_outputs({{index_of(o), OutputKind::page}}, {});
   for (const study::Experiment& experiment : study::experiments()) run_one(o, experiment);
   write_index(o);
 }

@@ -98,7 +98,7 @@ class Meter {
 class Measuring {
  public:
   Measuring(std::vector<Run> runs, const fs::path& folder, const StudyOptions& options, const std::string& results)
-      : runs_(std::move(runs)), folder_(folder), options_(options), results_(results) {}
+      : runs_(std::move(runs)), folder_(folder), options_(options), results_(results, "label") {}
 
   std::size_t missing() const {
     std::size_t count = 0;
@@ -202,16 +202,42 @@ std::vector<Run> checked_plan(const Experiment& experiment, const StudyOptions& 
   return runs;
 }
 
+std::string stem_of(const Experiment& experiment, const StudyOptions& options) {
+  return (fs::path(options.folder) / experiment.name).string();
+}
+
+PlannedOutput in_folder(const fs::path& folder, const char* name) {
+  PlannedOutput output{(folder / name).string()};
+  output.makes_folder = true;
+  return output;
+}
+
+/// Pages, and for each folder a file as there will be.
+std::vector<PlannedOutput> planned_outputs(const std::string& stem, const fs::path& folder) {
+  return {{stem + ".html", OutputKind::page},
+          {stem + ".json", OutputKind::page},
+          in_folder(folder / "images", "filtered.exr"),
+          in_folder(folder / "scenes", "reference.exr"),
+          in_folder(stem + ".pictures", "picture.png")};
+}
+
 }  // namespace
 
-StudyDone run_experiment(const Experiment& experiment, const StudyOptions& options, const Watch& watch) {
-  std::vector<Run> runs = checked_plan(experiment, options);
+void check_experiment(const Experiment& experiment, const StudyOptions& options) {
+  checked_plan(experiment, options);
   report::check_plotting();
-  const fs::path folder = options.folder;
-  make_folder(folder);
-  const std::string stem = (folder / experiment.name).string();
+  make_folder(options.folder);
+  const std::string stem = stem_of(experiment, options);
+  check_outputs(planned_outputs(stem, options.folder), {});
+  check_target(stem + ".runs.jsonl");
+}
+
+StudyDone run_experiment(const Experiment& experiment, const StudyOptions& options, const Watch& watch) {
+  check_experiment(experiment, options);
+  std::vector<Run> runs = checked_plan(experiment, options);
+  const std::string stem = stem_of(experiment, options);
   const std::size_t count = runs.size();
-  Measuring measuring(std::move(runs), folder, options, stem + ".runs.jsonl");
+  Measuring measuring(std::move(runs), options.folder, options, stem + ".runs.jsonl");
   const std::size_t missing = measuring.missing();
   measuring.measure_missing(watch);
   make_folder(stem + ".pictures");

@@ -31,9 +31,13 @@ struct StudyDone {
   std::size_t measured = 0, known = 0;  ///< runs
 };
 
+/// Finds before the work what run_experiment() would end with, and makes the folder. Throws Error(usage) for options,
+/// Error(output) without gnuplot or where a page, the results or a folder cannot be written.
+void check_experiment(const Experiment& experiment, const StudyOptions& options);
+
 /// In the folder: NAME.html and NAME.json; NAME.runs.jsonl, a line a run as soon as it is made; scenes/, images/ and
-/// NAME.pictures/ with what was rendered, filtered and shown. Pages are whole or untouched. Options of all runs are
-/// checked before anything is made. Throws what render_scene(), filter() and the writers do.
+/// NAME.pictures/ with what was rendered, filtered and shown. Pages are whole or untouched. Throws what
+/// check_experiment() throws, and what render_scene(), filter() and the writers do.
 StudyDone run_experiment(const Experiment& experiment, const StudyOptions& options, const Watch& watch);
 
 }  // namespace rpf::study

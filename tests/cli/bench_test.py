@@ -1,5 +1,6 @@
-"""rpf bench as a user runs it. No test looks at how long anything took. Usage: bench_test.py RPF PROJECT"""
+"""rpf bench as a user runs it. No test looks at how long anything took, but for a signal. Usage: bench_test.py RPF PROJECT"""
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -59,6 +60,26 @@ class BenchTest(CommandCase):
 
     def test_frames_renders_a_scene_where_no_file_is_named(self):
         self.expect(run("frames", "--size", "24x16", "--rounds", "1", "--set", "x=--boxes 3"), 0, "dof 24x16")
+
+    def test_frames_stops_while_its_scene_is_made(self):
+        for command, delay in (("frames", 0.5), ("frames", 4), ("ab", 4)):
+            process = subprocess.Popen([RPF, "bench", command, "--size", "1920x1080"], stderr=subprocess.PIPE,
+                                       env={**os.environ, "TMPDIR": str(self.folder)})
+            time.sleep(delay)
+            start = time.monotonic()
+            process.send_signal(signal.SIGTERM)
+            process.communicate()
+            self.assertLess(time.monotonic() - start, 20)  # 2 s where the machine is not busy, 40 where nobody looks
+            self.assertEqual(process.returncode, 143)
+            self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_memory_is_compared_before_a_scene_is_rendered(self):
+        little = {**os.environ, "RPF_MAX_MEMORY_MB": "20", "TMPDIR": str(self.folder)}
+        for size, doing in (("480x270", "filtering needs"), ("4000x3000", "rendering takes")):
+            for command in ("frames", "ab"):
+                result = subprocess.run([RPF, "bench", command, "--size", size], env=little, capture_output=True, text=True, check=False)
+                self.expect(result, 6, f"dof {size}: {doing}", "the limit is 20 MB", "smaller --size")
+        self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_wrong_settings_are_named(self):
         self.expect(run("frames", EXAMPLE, "--set", "wrong=--boxen 5"), 2, "wrong", "--boxen")
@@ -137,6 +158,27 @@ class BenchTest(CommandCase):
         self.assertFalse(self.results.exists(), "a wrong option shows before anything is made")
         self.expect(self.sweep(settings={"no lens": "--random no-such"}), 2, "tiny, no lens: ", "no-such")
         self.expect(run("sweep", self.folder / "none.json", "-o", self.results), 3, "none.json")
+
+    def test_sweep_checks_all_frames_before_it_renders(self):
+        good = {"name": "good", "scene": "dof", "size": "24x16"}
+        for bad, code, text in (({"scene": "nope"}, 2, "no such scene"), ({"scene": "dof", "reference_spp": 1}, 2, "reference_spp 1"),
+                                ({"scene": "dof", "spp": 0}, 2, "samples a pixel is 0"), ({"samples": "none.exr"}, 3, "none.exr"),
+                                ({"samples": str(EXAMPLE), "reference": "none.exr"}, 3, "none.exr"),
+                                ({"scene": "dof", "size": "9000x9000", "spp": 4000}, 2, "choose a smaller")):
+            self.expect(self.sweep(frames=[good, {"name": "bad", **bad}]), code, "bad, mean: ", text)
+            self.assertEqual(self.results.read_text(), "")
+            self.assertFalse((self.folder / "results.jsonl.scenes").exists())
+
+    def test_sweep_leaves_alone_what_is_not_its_results(self):
+        for text in ("my notes", '{"a": 1}', "{", '{"key":"mine"}\nand more'):
+            self.results.write_text(text)
+            self.expect(self.sweep(), 3, "no result of rpf bench sweep", "another file")
+            self.assertEqual(self.results.read_text(), text)
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        for path, kind in ((self.folder, "a folder"), (pipe, "a pipe")):
+            self.expect(run("sweep", self.plan(), "-o", path), 4, kind)
+            self.expect(run("sweep", path, "-o", self.folder / "other"), 3, kind)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@ import json
 import os
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
@@ -146,6 +147,37 @@ class StudyTest(CommandCase):
         self.assertFalse([file for file in self.study.rglob(".*")], "no temporary file is left")
         for line in results.read_text().splitlines():
             json.loads(line)
+
+    def test_what_is_not_its_results_stays(self):
+        self.study.mkdir()
+        self.results.write_text("my notes")
+        self.expect(self.features(), 3, "no result of rpf bench sweep or rpf study")
+        self.assertEqual(self.results.read_text(), "my notes")
+        self.results.write_text("")
+        self.results.chmod(0o444)
+        self.expect(self.features(), 4, "write-protected")
+        self.results.unlink()
+        os.mkfifo(self.results)
+        self.expect(self.features(), 4, "a pipe or socket")
+
+    def test_targets_are_checked_before_the_work(self):
+        def spoil(path, kind):
+            path.parent.mkdir()
+            if kind == "folder":
+                path.mkdir()
+            elif kind == "pipe":
+                os.mkfifo(path)
+            else:
+                path.write_text("")
+                path.chmod(0o444)
+        for name, kind, text in (("features.html", "protected", "write-protected"), ("features.html", "folder", "a folder"),
+                                 ("features.json", "protected", "write-protected"), ("features.json", "pipe", "a pipe"),
+                                 ("features.runs.jsonl", "folder", "a folder"), ("features.pictures", "file", "features.pictures"),
+                                 ("images", "file", "images"), ("scenes", "file", "scenes"), ("index.html", "pipe", "a pipe")):
+            spoil(self.study / name, kind)
+            self.expect(run("all" if name == "index.html" else "features", "-o", self.study, *SIZE), 4, text)
+            self.assertEqual([path.name for path in self.study.iterdir()], [name])
+            shutil.rmtree(self.study)
 
     # ---- contemporaries
 

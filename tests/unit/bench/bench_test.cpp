@@ -1,5 +1,6 @@
 // Measuring: statistics of rounds, results that survive a stop, plans, other binaries.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "bench/child.h"
 #include "bench/frame_run.h"
@@ -77,12 +78,12 @@ TEST(BenchResults, AreThereAgainAfterReopening) {
   const TemporaryFolder folder;
   const std::string path = folder.file("results.jsonl");
   {
-    ResultsFile results(path);
+    ResultsFile results(path, "cpu");
     EXPECT_FALSE(results.has("a"));
     results.add("a", {{"cpu", 1.5}});
     EXPECT_TRUE(results.has("a"));
   }
-  const ResultsFile again(path);
+  const ResultsFile again(path, "cpu");
   EXPECT_TRUE(again.has("a"));
   EXPECT_FALSE(again.has("b"));
   ASSERT_EQ(again.lines().size(), 1U);
@@ -92,27 +93,38 @@ TEST(BenchResults, AreThereAgainAfterReopening) {
 TEST(BenchResults, AnInterruptedLineIsDropped) {
   const TemporaryFolder folder;
   const std::string path = folder.file("results.jsonl");
-  ResultsFile(path).add("a", {{"cpu", 1}});
+  ResultsFile(path, "cpu").add("a", {{"cpu", 1}});
   const std::string whole = file_bytes(path);
   for (const std::string& torn :
        {std::string("{"), std::string("{\"key\":\"b\",\"cp"), std::string("{\"key\":\"b\"}")}) {
     write_bytes(path, whole + torn);
-    ResultsFile results(path);
+    ResultsFile results(path, "cpu");
     EXPECT_TRUE(results.has("a"));
     EXPECT_FALSE(results.has("b")) << torn;
     EXPECT_EQ(file_bytes(path), whole) << "what follows must not be glued to " << torn;
   }
-  write_bytes(path, "{\"key\":");
-  EXPECT_TRUE(ResultsFile(path).lines().empty());
+  write_bytes(path, "{\"cpu\":");
+  EXPECT_TRUE(ResultsFile(path, "cpu").lines().empty());
 }
 
 TEST(BenchResults, OtherFilesAreRefusedAndLeftAlone) {
   const TemporaryFolder folder;
   const std::string path = folder.file("notes.txt");
-  write_bytes(path, "my notes\nand more");
-  expect_error(ErrorKind::input, "line 1", [&] { ResultsFile{path}; });
-  EXPECT_EQ(file_bytes(path), "my notes\nand more");
-  expect_error(ErrorKind::output, "cannot be written", [&] { ResultsFile{folder.file("none/results.jsonl")}; });
+  for (const char* text : {"my notes\nand more", "my notes", R"({"a": 1})", "{", "\n", R"({"key":"a"})",
+                           "{\"key\":\"a\"}\nmore", "{\"cpu\":1}\nmore"}) {
+    write_bytes(path, text);
+    expect_error(ErrorKind::input, "line 1", [&] { ResultsFile(path, "cpu"); });
+    EXPECT_EQ(file_bytes(path), text);
+  }
+  expect_error(ErrorKind::output, "cannot be written", [&] { ResultsFile(folder.file("none/results.jsonl"), "cpu"); });
+}
+
+TEST(BenchResults, WhatIsNoFileIsRefused) {
+  const TemporaryFolder folder;
+  expect_error(ErrorKind::output, "a folder", [&] { ResultsFile(folder.file(""), "cpu"); });
+  const std::string path = folder.file("pipe");
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  expect_error(ErrorKind::output, "a pipe or socket", [&] { ResultsFile(path, "cpu"); });
 }
 
 SweepPlan plan_of(const TemporaryFolder& folder, const std::string& json) {
