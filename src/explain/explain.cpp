@@ -55,6 +55,7 @@ class Run {
     check_memory(samples, settings, extra_bytes(samples.data_window.pixel_count(), samples.layout, settings));
     backend_ = make_backend(settings);
     prepared_ = prepare(std::move(samples), settings);
+    if (pixel) check_has_samples(*pixel, *traced_, prepared_.frame.first_sample);
     if (settings.drop_uninformative) drop_uninformative(prepared_, settings);
     plan_ = make_plan(prepared_.facts, settings);
     plan_.explain = true;

@@ -6,6 +6,9 @@ import sys
 import time
 import unittest
 
+import numpy as np
+
+import small_files
 from command_case import EXAMPLE, RPF, CommandCase
 
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # a shell ignores it for what it starts in the background
@@ -99,6 +102,14 @@ class ExplainTest(CommandCase):
         self.expect_nothing_written()
         blocked.write_text("")
         self.expect(run("explain", self.samples, "-o", blocked), 4, "Not a directory")
+
+    def test_a_pixel_that_lost_all_its_samples_cannot_be_explained(self):
+        for value in (np.nan, np.inf):
+            channels = small_files.frame()
+            channels["R"][:] = value
+            small_files.write_raw(self.samples, channels)
+            self.expect(run("explain", self.samples, "-o", self.output, "-q", "--pixel", "0,0"), 3, "pixel 0,0 has no samples")
+            self.expect_nothing_written()
 
     def test_a_signal_stops_it_and_leaves_nothing(self):
         process = subprocess.Popen([RPF, "explain", EXAMPLE, "-o", self.output, "--box", "55", "--progress", "always"],
