@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "explain/attribution.h"
 #include "explain/layers.h"
 #include "explain/pixel_number.h"
 #include "explain/traced_pixel.h"
 #include "frame/resolve.h"
 #include "frame/selection.h"
+#include "parallel/thread_count.h"
+#include "plan/neighborhood_size.h"
 #include "rpf/error.h"
 #include "run/backends.h"
 #include "run/driver.h"
@@ -16,7 +20,6 @@
 #include "run/pass_summary.h"
 #include "run/progress_meter.h"
 #include "run/provenance.h"
-#include "parallel/thread_count.h"
 #include "run/tiles.h"
 
 namespace rpf {
@@ -54,6 +57,7 @@ class Run {
     geometry_.metadata = samples.metadata;
     check_memory(samples, settings, extra_bytes(samples.data_window.pixel_count(), samples.layout, settings));
     backend_ = make_backend(settings);
+    if (pixel) check_trace(*pixel, samples);
     prepared_ = prepare(std::move(samples), settings);
     if (pixel) check_has_samples(*pixel, *traced_, prepared_.frame.first_sample);
     if (settings.drop_uninformative) drop_uninformative(prepared_, settings);
@@ -87,6 +91,22 @@ class Run {
   }
 
  private:
+  /// Every neighbor has a weight for every sample of the pixel's own: in a crowded one that is more than the pass
+  /// takes.
+  void check_trace(const PixelPosition& pixel, const SampleBuffer& samples) const {
+    const std::uint32_t own = samples.first_sample[*traced_ + 1] - samples.first_sample[*traced_],
+                        most = neighborhood_size(settings_, settings_.box_widths.front()).size(own);
+    const std::uint64_t need = predict_explain_memory(frame_size(samples), samples.layout, settings_) +
+                               backend_->trace_bytes(own, std::max(own, most));
+    if (settings_.max_memory == 0 || need <= settings_.max_memory) return;
+    constexpr double megabyte = 1 << 20;
+    throw Error(ErrorKind::memory,
+                fmt::format("pixel {},{}: explaining its {} samples needs {:.0f} MB, the limit is {:.0f} MB; raise "
+                            "--max-memory or choose a pixel with fewer samples",
+                            pixel.x, pixel.y, own, static_cast<double>(need) / megabyte,
+                            static_cast<double>(settings_.max_memory) / megabyte));
+  }
+
   std::vector<float> resolved() const { return resolve(prepared_.frame, backend_->colors(), plan_.carried); }
 
   void describe(Explanation& result, const std::vector<RandomGroup>& groups, const ProgressMeter& meter) {

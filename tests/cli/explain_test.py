@@ -111,6 +111,19 @@ class ExplainTest(CommandCase):
             self.expect(run("explain", self.samples, "-o", self.output, "-q", "--pixel", "0,0"), 3, "pixel 0,0 has no samples")
             self.expect_nothing_written()
 
+    def write_crowded_frame(self, samples):
+        """The first pixel has so many, all others one."""
+        frame, crowd = small_files.frame(spp=1), small_files.frame(1, 1, samples)
+        small_files.write_raw(self.samples, {name: np.concatenate([crowd[name], values[1:]]) for name, values in frame.items()},
+                              spp=[samples] + 47 * [1])
+
+    def test_a_pixel_that_takes_too_much_memory_is_refused_before(self):
+        self.write_crowded_frame(20000)
+        result = run("explain", self.samples, "-o", self.output, "-q", "--pixel", "0,0", "--max-memory", "4000", "--backend", "cpu")
+        self.expect(result, 6, "pixel 0,0", "the limit is 4000 MB", "fewer samples")
+        self.assertRegex(result.stderr, r"needs 8\d\d\d MB")
+        self.expect_nothing_written()
+
     def test_a_signal_stops_it_and_leaves_nothing(self):
         process = subprocess.Popen([RPF, "explain", EXAMPLE, "-o", self.output, "--box", "55", "--progress", "always"],
                                    stderr=subprocess.PIPE)
