@@ -43,14 +43,15 @@ pid_t start(const std::vector<std::string>& command, int out) {
   return child;
 }
 
-/// Everything that comes out of the pipe until its other end is closed.
-std::string read_all(int in, pid_t child) {
+/// Everything that comes out of the pipe until its other end is closed. `was_stopped`: by a signal to this process.
+std::string read_all(int in, pid_t child, bool& was_stopped) {
   std::string text;
   std::array<char, 4096> part{};
   for (;;) {
     pollfd ready{in, POLLIN, 0};
     if (poll(&ready, 1, -1) < 0 && errno == EINTR) {  // a signal; read() would be restarted behind our back
       kill(child, SIGTERM);
+      was_stopped = true;
       continue;
     }
     const ssize_t count = read(in, part.data(), part.size());
@@ -73,12 +74,14 @@ std::string output_of(const std::vector<std::string>& command) {
     throw;
   }
   close(ends[1]);
-  std::string text = read_all(ends[0], child);
+  bool was_stopped = false;
+  std::string text = read_all(ends[0], child, was_stopped);
   close(ends[0]);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  if (code != 0 && was_stopped) throw Error(ErrorKind::cancelled, "cancelled");
   if (code != 0) throw Error(kind_of(code), fmt::format("\"{}\" ended with exit code {}", command.front(), code));
   return text;
 }

@@ -1,4 +1,5 @@
 """rpf explain as a user runs it. Usage: explain_test.py RPF PROJECT"""
+import os
 import re
 import signal
 import subprocess
@@ -123,6 +124,35 @@ class ExplainTest(CommandCase):
         self.expect(result, 6, "pixel 0,0", "the limit is 4000 MB", "fewer samples")
         self.assertRegex(result.stderr, r"needs 8\d\d\d MB")
         self.expect_nothing_written()
+
+    def test_a_pixel_of_one_sample_is_told_in_silence(self):
+        small_files.write_raw(self.samples, small_files.frame(spp=1), spp=1)
+        result = run("explain", self.samples, "-o", self.output, "-q", "--pixel", "0,0")
+        self.expect(result, 0)
+        self.assertEqual(result.stdout + result.stderr, "")
+
+    def test_a_crowded_neighborhood_makes_no_large_page(self):
+        self.write_crowded_frame(20000)
+        self.expect(run("explain", self.samples, "-o", self.output, "-q", "--pixel", "1,1"), 0)
+        self.assertLess((self.output / "pixel-1-1.html").stat().st_size, 1 << 20)
+
+    def test_a_signal_that_finds_gnuplot_at_work_cancels(self):
+        """In place of gnuplot, a program that never ends."""
+        tools = self.folder / "tools"
+        tools.mkdir()
+        begun = tools / "begun"
+        (tools / "gnuplot").write_text(f'#!/bin/sh\n[ "$2" = --version ] && exit\n: > "{begun}"\nexec sleep 60\n')
+        (tools / "gnuplot").chmod(0o755)
+        process = subprocess.Popen([RPF, "explain", self.samples, "-o", self.output, "--box", "3", "-q", "--pixel", "1,1"],
+                                   env={**os.environ, "PATH": f"{tools}:{os.environ['PATH']}"}, stderr=subprocess.PIPE, text=True)
+        while not begun.exists():
+            self.assertIsNone(process.poll())
+            time.sleep(0.01)
+        time.sleep(0.1)  # the script has become the program that is ended
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.communicate(timeout=60)[1], "rpf: error: cancelled\n")
+        self.assertEqual(process.returncode, 143)
+        self.assertFalse(self.output.exists())
 
     def test_a_signal_stops_it_and_leaves_nothing(self):
         process = subprocess.Popen([RPF, "explain", EXAMPLE, "-o", self.output, "--box", "55", "--progress", "always"],
