@@ -8,6 +8,7 @@
 #include "explain/layers.h"
 #include "explain/pixel_number.h"
 #include "explain/traced_pixel.h"
+#include "frame/clean_frame.h"
 #include "frame/resolve.h"
 #include "frame/selection.h"
 #include "parallel/thread_count.h"
@@ -150,6 +151,14 @@ Settings explain_settings() {
 Explanation explain(SampleBuffer samples, const Settings& settings, const Control& control,
                     const std::optional<PixelPosition>& pixel) {
   return Run(std::move(samples), settings, control, pixel).finish();
+}
+
+std::vector<std::string> explain_layers(const SampleLayout& layout, const Settings& settings) {
+  const Selection selection = select_channels(layout, settings);
+  Variables variables;
+  for (const std::string& slot : selection.random) variables.random_names.push_back(short_name(slot));
+  for (const std::string& slot : selection.features) variables.feature_names.push_back(short_name(slot));
+  return Layers::names(variables, random_groups(variables));
 }
 
 std::uint64_t predict_explain_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {

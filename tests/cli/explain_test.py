@@ -1,6 +1,7 @@
 """rpf explain as a user runs it. Usage: explain_test.py RPF PROJECT"""
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -153,6 +154,28 @@ class ExplainTest(CommandCase):
         self.assertEqual(process.communicate(timeout=60)[1], "rpf: error: cancelled\n")
         self.assertEqual(process.returncode, 143)
         self.assertFalse(self.output.exists())
+
+    def test_what_cannot_be_replaced_is_told_before_the_work(self):
+        page, pictures = self.output / "pixel-1-1.html", self.output / "pixel-1-1"
+        protected = (self.output / "alpha.png", self.output / "beta-N-X.png", self.output / "information-lens.png", pictures / "histogram-lens.U.png")
+        for path, made in ((self.output / "alpha.png", os.mkfifo), (page, os.mkdir), (pictures, lambda path: path.touch()),
+                           *((path, lambda path: path.touch(0o444)) for path in protected)):
+            with self.subTest(path=path.name):
+                path.parent.mkdir(parents=True, exist_ok=True)
+                made(path)
+                before = sorted(self.output.rglob("*"))
+                result = self.explain("--pixel", "1,1", "--progress", "always")
+                self.expect(result, 4, path.name)
+                self.assertNotIn("pass 1", result.stderr)
+                self.assertEqual(sorted(self.output.rglob("*")), before)
+                shutil.rmtree(self.output)
+
+    def test_other_files_of_its_folder_are_none_of_its_business(self):
+        self.output.mkdir()
+        for name in ("photo.png", "page.html", "other.exr"):
+            (self.output / name).touch(0o444)
+        self.expect(self.explain("-q", "--pixel", "1,1"), 0)
+        self.assertEqual((self.output / "photo.png").stat().st_size, 0)
 
     def test_a_signal_stops_it_and_leaves_nothing(self):
         process = subprocess.Popen([RPF, "explain", EXAMPLE, "-o", self.output, "--box", "55", "--progress", "always"],
