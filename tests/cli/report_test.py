@@ -179,6 +179,7 @@ class ReportTest(CommandCase):
                 self.assertFalse(self.page.exists())
         self.expect(self.report(page=self.folder / "none" / "page.html"), 4, "none")
         self.expect(self.report(page=self.output), 2)
+        self.expect(run("report", self.samples, self.output, "-o", self.page, "--backend", "opencl"), 2, "--backend")
         self.expect(run(self.samples, "-o", self.output, "--report", self.output), 2)
 
 
