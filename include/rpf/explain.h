@@ -108,6 +108,10 @@ Explanation explain(SampleBuffer samples, const Settings& settings, const Contro
 ExplainedEstimate explain_estimate(SampleBuffer samples, const Settings& settings, const PixelPosition& pixel,
                                    const Control& control = {});
 
+/// Channels of Explanation::layers where none of the input's is constant: of those that are, there are no layers.
+/// Throws Error(usage) for a group that the layout does not have.
+std::vector<std::string> explain_layers(const SampleLayout& layout, const Settings& settings);
+
 /// Peak bytes of reading and explaining, as predict_memory() of rpf/filter.h.
 std::uint64_t predict_explain_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings);
 

@@ -47,15 +47,6 @@ Comparison compare(const Options& options, const std::vector<Image>& images) {
   return comparison;
 }
 
-/// The same pixels in another frame: they can be compared, but one of the two may be wrong.
-void tell_display_windows(const Options& options, const std::vector<Image>& images) {
-  const Window& expected = images.back().display_window;
-  for (std::size_t i = 0; i + 1 < images.size(); ++i)
-    if (!(images[i].display_window == expected))
-      remark("rpf: note: \"{}\" has the display window {}, its reference {}\n", options.files[i],
-             text_of(images[i].display_window), text_of(expected));
-}
-
 Image heat_maps(const std::vector<Image>& images) {
   std::vector<Image> maps;
   for (std::size_t i = 0; i + 1 < images.size(); ++i)
@@ -121,7 +112,8 @@ int run(const Options& options) {
   std::vector<Image> images;
   for (const std::string& file : options.files) images.push_back(read_image(file, limit));
   const Comparison comparison = compare(options, images);
-  tell_display_windows(options, images);
+  for (std::size_t i = 0; i + 1 < images.size(); ++i)
+    tell_display_window(options.files[i], images[i].display_window, "its reference", images.back().display_window);
   if (!options.side_by_side.empty())
     write_image(options.side_by_side, report::side_by_side(images, crop_of(options.zoom, images)));
   if (!options.diff.empty()) write_image(options.diff, heat_maps(images));

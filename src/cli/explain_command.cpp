@@ -2,9 +2,11 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <system_error>
 
 #include "cli/commands.h"
 #include "cli/environment.h"
+#include "cli/explain_maps.h"
 #include "cli/explain_pages.h"
 #include "cli/filter_options.h"
 #include "cli/needs.h"
@@ -48,12 +50,35 @@ Settings settings_of(const Options& o) {
 /// The folder to write to; it is made in the end, inside one that exists.
 fs::path folder_of(const Options& o) { return (fs::path(o.filter.output) / "").parent_path(); }
 
-/// Before an hour of work. The names of all pictures are known only afterwards: one stands for them.
-void check_files(const Options& o) {
-  std::vector<PlannedOutput> outputs;
-  for (const char* name : {"explain.exr", "density.exr", "noise.png"})
-    outputs.push_back({(folder_of(o) / name).string(), OutputKind::image, {"R", "G", "B"}, {}, false, true});
-  outputs.push_back({(folder_of(o) / "index.html").string(), OutputKind::page, {}, {}, false, true});
+PlannedOutput planned(const fs::path& path, OutputKind kind) {
+  return {path.string(), kind, {"R", "G", "B"}, {}, false, true};
+}
+
+/// The page of a pixel and, where its folder is there, the pictures in it. Others follow from what the pass finds: one
+/// that there always is stands for them.
+std::vector<PlannedOutput> planned_outputs(const fs::path& folder, const PixelPosition& pixel) {
+  const std::string name = pixel_page_name(pixel);
+  std::vector<PlannedOutput> outputs = {planned(folder / (name + ".html"), OutputKind::page)};
+  std::error_code unknown;
+  if (!fs::exists(folder / name, unknown)) return outputs;
+  const fs::path always = folder / name / "box.png";
+  outputs.push_back(planned(always, OutputKind::image));
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / name, unknown))
+    if (entry.path().extension() == ".png" && entry.path() != always)
+      outputs.push_back(planned(entry.path(), OutputKind::image));
+  return outputs;
+}
+
+/// Before an hour of work.
+void check_files(const Options& o, const std::vector<std::string>& layers, const std::optional<PixelPosition>& pixel) {
+  const fs::path folder = folder_of(o);
+  std::vector<PlannedOutput> outputs = {planned(folder / "explain.exr", OutputKind::image),
+                                        planned(folder / "density.exr", OutputKind::image),
+                                        planned(folder / "index.html", OutputKind::page)};
+  for (const std::string& name : map_names(layers))
+    outputs.push_back(planned(folder / (name + ".png"), OutputKind::image));
+  if (pixel)
+    for (PlannedOutput& output : planned_outputs(folder, *pixel)) outputs.push_back(std::move(output));
   check_outputs(outputs, {o.filter.input});
 }
 
@@ -90,10 +115,10 @@ int run(const Options& o) {
   }
   SampleReadOptions read_options = read_options_of(o.filter, settings);
   const SampleFileInfo info = inspect_samples(o.filter.input, read_options);
-  check_need(info, "explaining", predict_explain_memory(frame_size(info), needed_layout(info, settings), settings),
-             settings.max_memory);
-  check_files(o);
-  read_options.slots = needed_layout(info, settings).slots;
+  const SampleLayout layout = needed_layout(info, settings);
+  check_need(info, "explaining", predict_explain_memory(frame_size(info), layout, settings), settings.max_memory);
+  check_files(o, explain_layers(layout, settings), pixel);
+  read_options.slots = layout.slots;
   std::optional<ExplainedEstimate> estimate;
   const std::string progress = o.filter.quiet ? "never" : o.filter.progress;
   if (pixel)

@@ -213,4 +213,14 @@ void for_each_map(const Explanation& explanation, const std::function<void(const
   maps.add_information();
 }
 
+std::vector<std::string> map_names(const std::vector<std::string>& channels) {
+  Explanation smallest;
+  smallest.layers.data_window = smallest.layers.display_window = {0, 0, 1, 1};
+  smallest.layers.channels = channels;
+  smallest.layers.pixels.resize(channels.size());
+  std::vector<std::string> names;
+  for_each_map(smallest, [&](const ExplainMap& map) { names.push_back(map.name); });
+  return names;
+}
+
 }  // namespace rpf::cli

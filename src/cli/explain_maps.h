@@ -22,6 +22,9 @@ struct ExplainMap {
 /// Hands out all of them, chapter by chapter; one at a time, for all together take more memory than the layers.
 void for_each_map(const Explanation& explanation, const std::function<void(const ExplainMap&)>& use);
 
+/// Names of the maps that layers with these channels have.
+std::vector<std::string> map_names(const std::vector<std::string>& channels);
+
 /// Which random parameters make the noise: the groups' colors, mixed by their shares.
 ExplainMap attribution_map(const Explanation& explanation);
 

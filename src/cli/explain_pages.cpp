@@ -85,7 +85,7 @@ void write_explanation(const std::string& folder, const std::string& input, cons
   page.table(numbers_table(explanation.layers));
   if (explanation.pixel) {
     const PixelPosition& at = explanation.pixel->position;
-    page.link(fmt::format("pixel-{}-{}.html", at.x, at.y), fmt::format("Pixel {},{}", at.x, at.y));
+    page.link(pixel_page_name(at) + ".html", fmt::format("Pixel {},{}", at.x, at.y));
   }
   page.write(path_in(folder, "index.html"));
 }

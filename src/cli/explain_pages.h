@@ -12,6 +12,9 @@ namespace rpf::cli {
 /// is explained. Each file is whole or untouched; index.html comes last.
 void write_explanation(const std::string& folder, const std::string& input, const Explanation& explanation);
 
+/// "pixel-X-Y": its page without extension, and the folder of the page's pictures.
+std::string pixel_page_name(const PixelPosition& pixel);
+
 /// Writes pixel-X-Y.html about Explanation::pixel and what a preset makes of it, and the pictures into a folder
 /// pixel-X-Y. Returns the page's path.
 std::string write_pixel_page(const std::string& folder, const std::string& input, const Explanation& explanation,

@@ -97,7 +97,7 @@ class PixelPage {
       : explanation_(explanation),
         estimate_(estimate),
         pixel_(*explanation.pixel),
-        name_(fmt::format("pixel-{}-{}", pixel_.position.x, pixel_.position.y)),
+        name_(pixel_page_name(pixel_.position)),
         folder_(folder),
         page_(fmt::format("Pixel {},{} of {}", pixel_.position.x, pixel_.position.y,
                           fs::path(input).filename().string())) {
@@ -242,6 +242,8 @@ class PixelPage {
 };
 
 }  // namespace
+
+std::string pixel_page_name(const PixelPosition& pixel) { return fmt::format("pixel-{}-{}", pixel.x, pixel.y); }
 
 std::string write_pixel_page(const std::string& folder, const std::string& input, const Explanation& explanation,
                              const ExplainedEstimate& estimate) {

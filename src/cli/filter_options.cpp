@@ -18,6 +18,8 @@
 namespace rpf::cli {
 namespace {
 
+constexpr const char* running_group = "Running";
+
 [[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& expected) {
   constexpr std::size_t shown = 40;
   throw Error(ErrorKind::usage, fmt::format("{} {}: {}", option, value.substr(0, shown), expected));
@@ -115,24 +117,23 @@ void add_tuning_options(CLI::App& app, FilterOptions& o) {
 }
 
 void add_run_options(CLI::App& app, FilterOptions& o) {
-  const std::string group = "Running";
   app.add_option("--crop", o.crop, "Filter only this part; its pixels are those of the whole frame")
       ->type_name("WxH+X+Y")
-      ->group(group);
+      ->group(running_group);
   app.add_option("--rows", o.rows,
                  "Filter only these rows, such as 0-269, or the first, second, ... of so many parts of them, such as "
                  "2/4; rpf join makes a whole of parts")
       ->type_name("A-B|PART/PARTS")
       ->excludes("--crop")
-      ->group(group);
+      ->group(running_group);
   app.add_option(
          "--facts", o.facts,
          "What rpf facts found in the whole frame with these settings, so that only rows that are needed are read")
       ->type_name("FILE")
-      ->group(group);
+      ->group(running_group);
   add_machine_options(app, o);
-  app.add_flag("--dry-run", o.dry_run, "Check options, files and memory; write nothing")->group(group);
-  app.add_flag("-v,--verbose", o.verbose, "Say what every pass did")->group(group);
+  app.add_flag("--dry-run", o.dry_run, "Check options, files and memory; write nothing")->group(running_group);
+  app.add_flag("-v,--verbose", o.verbose, "Say what every pass did")->group(running_group);
 }
 
 /// What an option among the arguments says, read before they are parsed; empty without it.
@@ -189,17 +190,21 @@ std::array<CLI::Option*, 2> add_backend_options(CLI::App& app, std::string& back
 }
 
 void add_machine_options(CLI::App& app, FilterOptions& o) {
-  const std::string group = "Running";
-  for (CLI::Option* option : add_backend_options(app, o.settings.backend, o.settings.device)) option->group(group);
+  for (CLI::Option* option : add_backend_options(app, o.settings.backend, o.settings.device))
+    option->group(running_group);
+  add_running_options(app, o);
+}
+
+void add_running_options(CLI::App& app, FilterOptions& o) {
   restrict_to(app.add_option("-t,--threads", o.settings.threads, "Threads; all cores if not given"), ranges::threads,
               "RPF_NUM_THREADS")
-      ->group(group);
-  add_memory_option(app, o.max_memory_mb)->group(group);
+      ->group(running_group);
+  add_memory_option(app, o.max_memory_mb)->group(running_group);
   app.add_option("--progress", o.progress, "auto, never, always")
       ->check(one_of({"auto", "never", "always"}))
       ->capture_default_str()
-      ->group(group);
-  app.add_flag("-q,--quiet", o.quiet, "Only errors")->group(group);
+      ->group(running_group);
+  app.add_flag("-q,--quiet", o.quiet, "Only errors")->group(running_group);
 }
 
 CLI::Option* add_memory_option(CLI::App& app, std::uint64_t& megabytes) {

@@ -46,7 +46,9 @@ void add_channel_options(CLI::App& app, FilterOptions& options);
 void add_preset_option(CLI::App& app, std::string& preset);
 /// "--backend" and "--device".
 std::array<CLI::Option*, 2> add_backend_options(CLI::App& app, std::string& backend, std::string& device);
-/// Backend, threads, memory, what is told.
+/// Threads, memory, what is told.
+void add_running_options(CLI::App& app, FilterOptions& options);
+/// The same with the backend.
 void add_machine_options(CLI::App& app, FilterOptions& options);
 /// "--max-memory", shared by the commands that read; memory_limit() takes what it says.
 CLI::Option* add_memory_option(CLI::App& app, std::uint64_t& megabytes);

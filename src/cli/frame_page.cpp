@@ -18,6 +18,7 @@
 #include "rpf/error.h"
 #include "rpf/methods.h"
 #include "rpf/metrics.h"
+#include "rpf/outputs.h"
 
 namespace rpf::cli {
 namespace {
@@ -62,6 +63,7 @@ class FramePage {
     after_ = read_image(job.output, limit);
     if (!job.reference.empty()) reference_ = read_image(job.reference, limit);
     check_window();
+    if (job.progress != "never") tell_display_windows();
     // What is wrong with the images is told before the noise is measured, which takes long.
     filtered_ = light("filtered", job.output, after_);
     if (reference_) after_errors_ = errors_of(job.output, after_);
@@ -97,6 +99,13 @@ class FramePage {
                 fmt::format("\"{}\" has the data window {}, which is no part of \"{}\" with {}; name "
                             "the image that was made of these samples",
                             job_.output, text_of(after_.data_window), job_.input, text_of(input_.info.data_window)));
+  }
+
+  /// Formats without windows have none to tell.
+  void tell_display_windows() const {
+    const Window& shown = after_.display_window;
+    if (is_openexr(job_.output)) tell_display_window(job_.output, shown, "its input", input_.info.display_window);
+    if (reference_) tell_display_window(job_.output, shown, "its reference", reference_->display_window);
   }
 
   report::ViewerLayer light(const std::string& name, const std::string& file, const Image& image) const {

@@ -24,7 +24,7 @@ struct RunFigures {
 struct FramePageJob {
   std::string input, output, reference, page;  ///< files; `reference` may be empty
   SampleReadOptions read;                      ///< of the input
-  Settings machine;                            ///< backend, device, threads and memory are taken from it
+  Settings machine;                            ///< threads and memory are taken from it
   std::string progress;                        ///< "auto", "never", "always"
   std::optional<RunFigures> run = {};
 };

@@ -48,7 +48,7 @@ Command add_report_command(CLI::App& app) {
       ->type_name("IN OUT [REF]");
   command->add_option("-o,--output", options->machine.output, "The page")->type_name("FILE.html");
   add_map_option(*command, options->machine.map);
-  add_machine_options(*command, options->machine);
+  add_running_options(*command, options->machine);
   return [options] { return run(*options); };
 }
 

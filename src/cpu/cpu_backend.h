@@ -23,6 +23,9 @@ class CpuBackend : public Backend {
   const std::vector<float>& explained() const override { return explained_; }
   std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const override;
   PixelTrace trace(int pass, std::uint32_t pixel) override;
+  std::uint64_t trace_bytes(std::uint64_t own, std::uint64_t neighbors) const override {
+    return sizeof(float) * own * neighbors;
+  }
   void load_estimate(const Frame& frame, const EstimatePlan& plan) override;
   std::vector<float> estimate(const Window& region, const EstimateProgress& progress) override;
   std::vector<EstimateStage> trace_estimate(const Window& region) override;

@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "explain/attribution.h"
 #include "explain/layers.h"
 #include "explain/pixel_number.h"
 #include "explain/traced_pixel.h"
+#include "frame/clean_frame.h"
 #include "frame/resolve.h"
 #include "frame/selection.h"
+#include "parallel/thread_count.h"
+#include "plan/neighborhood_size.h"
 #include "rpf/error.h"
 #include "run/backends.h"
 #include "run/driver.h"
@@ -16,7 +21,6 @@
 #include "run/pass_summary.h"
 #include "run/progress_meter.h"
 #include "run/provenance.h"
-#include "parallel/thread_count.h"
 #include "run/tiles.h"
 
 namespace rpf {
@@ -54,7 +58,9 @@ class Run {
     geometry_.metadata = samples.metadata;
     check_memory(samples, settings, extra_bytes(samples.data_window.pixel_count(), samples.layout, settings));
     backend_ = make_backend(settings);
+    if (pixel) check_trace(*pixel, samples);
     prepared_ = prepare(std::move(samples), settings);
+    if (pixel) check_has_samples(*pixel, *traced_, prepared_.frame.first_sample);
     if (settings.drop_uninformative) drop_uninformative(prepared_, settings);
     plan_ = make_plan(prepared_.facts, settings);
     plan_.explain = true;
@@ -86,6 +92,22 @@ class Run {
   }
 
  private:
+  /// Every neighbor has a weight for every sample of the pixel's own: in a crowded one that is more than the pass
+  /// takes.
+  void check_trace(const PixelPosition& pixel, const SampleBuffer& samples) const {
+    const std::uint32_t own = samples.first_sample[*traced_ + 1] - samples.first_sample[*traced_],
+                        most = neighborhood_size(settings_, settings_.box_widths.front()).size(own);
+    const std::uint64_t need = predict_explain_memory(frame_size(samples), samples.layout, settings_) +
+                               backend_->trace_bytes(own, std::max(own, most));
+    if (settings_.max_memory == 0 || need <= settings_.max_memory) return;
+    constexpr double megabyte = 1 << 20;
+    throw Error(ErrorKind::memory,
+                fmt::format("pixel {},{}: explaining its {} samples needs {:.0f} MB, the limit is {:.0f} MB; raise "
+                            "--max-memory or choose a pixel with fewer samples",
+                            pixel.x, pixel.y, own, static_cast<double>(need) / megabyte,
+                            static_cast<double>(settings_.max_memory) / megabyte));
+  }
+
   std::vector<float> resolved() const { return resolve(prepared_.frame, backend_->colors(), plan_.carried); }
 
   void describe(Explanation& result, const std::vector<RandomGroup>& groups, const ProgressMeter& meter) {
@@ -129,6 +151,14 @@ Settings explain_settings() {
 Explanation explain(SampleBuffer samples, const Settings& settings, const Control& control,
                     const std::optional<PixelPosition>& pixel) {
   return Run(std::move(samples), settings, control, pixel).finish();
+}
+
+std::vector<std::string> explain_layers(const SampleLayout& layout, const Settings& settings) {
+  const Selection selection = select_channels(layout, settings);
+  Variables variables;
+  for (const std::string& slot : selection.random) variables.random_names.push_back(short_name(slot));
+  for (const std::string& slot : selection.features) variables.feature_names.push_back(short_name(slot));
+  return Layers::names(variables, random_groups(variables));
 }
 
 std::uint64_t predict_explain_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {

@@ -27,6 +27,7 @@ class Estimated {
     check_memory(samples, settings);
     Observed observed = observe(std::move(samples), settings, find_network(settings.model, settings.max_memory));
     prepared_ = std::move(observed.prepared);
+    check_has_samples(position, number_, prepared_.frame.first_sample);
     plan_ = std::move(observed.plan);
     result_.model = plan_.network->name;
   }

@@ -22,7 +22,9 @@ float variance_of(const float* values, std::uint32_t count, std::size_t stride) 
   return static_cast<float>(square / (count - 1));
 }
 
-std::vector<std::string> layer_names(const Variables& variables, const std::vector<RandomGroup>& groups) {
+}  // namespace
+
+std::vector<std::string> Layers::names(const Variables& variables, const std::vector<RandomGroup>& groups) {
   std::vector<std::string> names = {"R", "G", "B", "filtered.R", "filtered.G", "filtered.B"};
   for (const char* name : {"normal.X", "normal.Y", "normal.Z", "position.X", "position.Y", "position.Z", "W.R", "W.G",
                            "W.B", "W.mean", "alpha.R", "alpha.G", "alpha.B"})
@@ -38,13 +40,11 @@ std::vector<std::string> layer_names(const Variables& variables, const std::vect
   return names;
 }
 
-}  // namespace
-
 Layers::Layers(const PreparedFrame& prepared, const Plan& plan, const std::vector<RandomGroup>& groups)
     : prepared_(prepared),
       plan_(plan),
       groups_(groups),
-      names_(layer_names(plan.variables, groups)),
+      names_(names(plan.variables, groups)),
       values_((prepared.frame.first_sample.size() - 1) * names_.size()),
       fraction_random_(channel("W.R")),
       share_(channel("share.explained") - groups.size()),

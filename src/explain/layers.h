@@ -11,6 +11,8 @@ namespace rpf {
 /// Fills an image [pixel][channel] step by step, each step some channels.
 class Layers {
  public:
+  /// Their channels.
+  static std::vector<std::string> names(const Variables& variables, const std::vector<RandomGroup>& groups);
   /// How many channels there are.
   static std::size_t count(std::size_t features, std::size_t groups) { return 30 + features + 2 * groups; }
 

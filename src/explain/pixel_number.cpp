@@ -13,9 +13,14 @@ std::uint32_t pixel_number(const PixelPosition& pixel, const SampleBuffer& sampl
     throw Error(ErrorKind::usage,
                 fmt::format("--pixel {},{} is not inside the data window {}", pixel.x, pixel.y, text_of(w)));
   const auto number = static_cast<std::uint32_t>(y * w.width + x);
-  if (samples.first_sample[number] == samples.first_sample[number + 1])
-    throw Error(ErrorKind::input, fmt::format("pixel {},{} has no samples; choose another", pixel.x, pixel.y));
+  check_has_samples(pixel, number, samples.first_sample);
   return number;
+}
+
+void check_has_samples(const PixelPosition& pixel, std::uint32_t number,
+                       const std::vector<std::uint32_t>& first_sample) {
+  if (first_sample[number] == first_sample[number + 1])
+    throw Error(ErrorKind::input, fmt::format("pixel {},{} has no samples; choose another", pixel.x, pixel.y));
 }
 
 }  // namespace rpf

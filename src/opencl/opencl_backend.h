@@ -38,6 +38,9 @@ class OpenClBackend : public Backend {
   const std::vector<float>& explained() const override { return explained_; }
   std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const override;
   PixelTrace trace(int pass, std::uint32_t pixel) override;
+  std::uint64_t trace_bytes(std::uint64_t own, std::uint64_t neighbors) const override {
+    return 3 * sizeof(float) * own * neighbors;  // on the device, as they are read, and in the trace
+  }
   void get_ready_estimate(const EstimatePlan& plan, const std::function<void()>& check) override;
   void load_estimate(const Frame& frame, const EstimatePlan& plan) override;
   std::vector<float> estimate(const Window& region, const EstimateProgress& progress) override;

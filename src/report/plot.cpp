@@ -5,8 +5,10 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "bench/child.h"
 #include "io/checked_writer.h"
@@ -15,6 +17,8 @@
 
 namespace rpf::report {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The lines of a plot take them in turns; from the second turn on they are dashed.
 constexpr std::uint32_t colors[] = {blue, vermillion, bluish_green, reddish_purple, orange, sky_blue, black};
@@ -53,6 +57,22 @@ std::string axes_of(const Plot& plot) {
   return text;
 }
 
+/// gnuplot says on standard error that a range with one value is none, and widens it; so it is given one as wide.
+std::string range_of(const Plot& plot, std::size_t axis) {
+  const bool from_zero = axis == 1 && plot.bars;
+  double least = from_zero ? 0 : infinity, most = from_zero ? 0 : -infinity;
+  for (const Curve& curve : plot.curves)
+    for (const auto& point : curve.points) {
+      if (!can_be_drawn(plot, point)) continue;
+      least = std::min(least, point.at(axis));
+      most = std::max(most, point.at(axis));
+    }
+  if (most - least > 1e-8 * std::abs(most)) return "";
+  const double around = most == 0 ? 1 : 0.01 * std::abs(most);
+  return fmt::format("set {}range [{:.9g}:{:.9g}]\n", axis == 0 ? 'x' : 'y', least - (from_zero ? 0 : around),
+                     most + around);
+}
+
 std::string curves_of(const Plot& plot) {
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
@@ -79,7 +99,7 @@ std::string script_of(const Plot& plot) {
       "set grid\nset key above\n";
   text += data_of(plot) + axes_of(plot);
   if (is_empty(plot)) return text + "unset logscale\nplot [0:1][0:1] NaN notitle\n";
-  return text + curves_of(plot);
+  return text + range_of(plot, 0) + range_of(plot, 1) + curves_of(plot);
 }
 
 /// A file without a name on any disk.

@@ -54,6 +54,8 @@ class Backend {
   virtual std::uint64_t scratch_bytes(const Plan& plan, std::uint64_t samples) const = 0;
   /// All intermediate values of one pixel, from the state before end_pass(). Changes nothing.
   virtual PixelTrace trace(int pass, std::uint32_t pixel) = 0;
+  /// Peak bytes of the weights in trace(), of a pixel with so many own samples and so many neighbors.
+  virtual std::uint64_t trace_bytes(std::uint64_t own, std::uint64_t neighbors) const = 0;
 
   // The learned estimator, in place of all of the above.
 

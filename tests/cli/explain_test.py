@@ -1,11 +1,16 @@
 """rpf explain as a user runs it. Usage: explain_test.py RPF PROJECT"""
+import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
 import time
 import unittest
 
+import numpy as np
+
+import small_files
 from command_case import EXAMPLE, RPF, CommandCase
 
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # a shell ignores it for what it starts in the background
@@ -99,6 +104,78 @@ class ExplainTest(CommandCase):
         self.expect_nothing_written()
         blocked.write_text("")
         self.expect(run("explain", self.samples, "-o", blocked), 4, "Not a directory")
+
+    def test_a_pixel_that_lost_all_its_samples_cannot_be_explained(self):
+        for value in (np.nan, np.inf):
+            channels = small_files.frame()
+            channels["R"][:] = value
+            small_files.write_raw(self.samples, channels)
+            self.expect(run("explain", self.samples, "-o", self.output, "-q", "--pixel", "0,0"), 3, "pixel 0,0 has no samples")
+            self.expect_nothing_written()
+
+    def write_crowded_frame(self, samples):
+        """The first pixel has so many, all others one."""
+        frame, crowd = small_files.frame(spp=1), small_files.frame(1, 1, samples)
+        small_files.write_raw(self.samples, {name: np.concatenate([crowd[name], values[1:]]) for name, values in frame.items()},
+                              spp=[samples] + 47 * [1])
+
+    def test_a_pixel_that_takes_too_much_memory_is_refused_before(self):
+        self.write_crowded_frame(20000)
+        result = run("explain", self.samples, "-o", self.output, "-q", "--pixel", "0,0", "--max-memory", "4000", "--backend", "cpu")
+        self.expect(result, 6, "pixel 0,0", "the limit is 4000 MB", "fewer samples")
+        self.assertRegex(result.stderr, r"needs 8\d\d\d MB")
+        self.expect_nothing_written()
+
+    def test_a_pixel_of_one_sample_is_told_in_silence(self):
+        small_files.write_raw(self.samples, small_files.frame(spp=1), spp=1)
+        result = run("explain", self.samples, "-o", self.output, "-q", "--pixel", "0,0")
+        self.expect(result, 0)
+        self.assertEqual(result.stdout + result.stderr, "")
+
+    def test_a_crowded_neighborhood_makes_no_large_page(self):
+        self.write_crowded_frame(20000)
+        self.expect(run("explain", self.samples, "-o", self.output, "-q", "--pixel", "1,1"), 0)
+        self.assertLess((self.output / "pixel-1-1.html").stat().st_size, 1 << 20)
+
+    def test_a_signal_that_finds_gnuplot_at_work_cancels(self):
+        """In place of gnuplot, a program that never ends."""
+        tools = self.folder / "tools"
+        tools.mkdir()
+        begun = tools / "begun"
+        (tools / "gnuplot").write_text(f'#!/bin/sh\n[ "$2" = --version ] && exit\n: > "{begun}"\nexec sleep 60\n')
+        (tools / "gnuplot").chmod(0o755)
+        process = subprocess.Popen([RPF, "explain", self.samples, "-o", self.output, "--box", "3", "-q", "--pixel", "1,1"],
+                                   env={**os.environ, "PATH": f"{tools}:{os.environ['PATH']}"}, stderr=subprocess.PIPE, text=True)
+        while not begun.exists():
+            self.assertIsNone(process.poll())
+            time.sleep(0.01)
+        time.sleep(0.1)  # the script has become the program that is ended
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.communicate(timeout=60)[1], "rpf: error: cancelled\n")
+        self.assertEqual(process.returncode, 143)
+        self.assertFalse(self.output.exists())
+
+    def test_what_cannot_be_replaced_is_told_before_the_work(self):
+        page, pictures = self.output / "pixel-1-1.html", self.output / "pixel-1-1"
+        protected = (self.output / "alpha.png", self.output / "beta-N-X.png", self.output / "information-lens.png", pictures / "histogram-lens.U.png")
+        for path, made in ((self.output / "alpha.png", os.mkfifo), (page, os.mkdir), (pictures, lambda path: path.touch()),
+                           *((path, lambda path: path.touch(0o444)) for path in protected)):
+            with self.subTest(path=path.name):
+                path.parent.mkdir(parents=True, exist_ok=True)
+                made(path)
+                before = sorted(self.output.rglob("*"))
+                result = self.explain("--pixel", "1,1", "--progress", "always")
+                self.expect(result, 4, path.name)
+                self.assertNotIn("pass 1", result.stderr)
+                self.assertEqual(sorted(self.output.rglob("*")), before)
+                shutil.rmtree(self.output)
+
+    def test_other_files_of_its_folder_are_none_of_its_business(self):
+        self.output.mkdir()
+        for name in ("photo.png", "page.html", "other.exr"):
+            (self.output / name).touch(0o444)
+        self.expect(self.explain("-q", "--pixel", "1,1"), 0)
+        self.assertEqual((self.output / "photo.png").stat().st_size, 0)
 
     def test_a_signal_stops_it_and_leaves_nothing(self):
         process = subprocess.Popen([RPF, "explain", EXAMPLE, "-o", self.output, "--box", "55", "--progress", "always"],

@@ -168,6 +168,21 @@ class ReportTest(CommandCase):
             self.assertNotIn("attributing", result.stderr)
             self.assertFalse(self.page.exists())
 
+    def test_display_windows_that_differ_are_told(self):
+        shown = self.folder / "shown.exr"
+        gray = {name: np.full((24, 40), 0.5, np.float32) for name in "RGB"}
+        small_files.write_exr(shown, gray, display=(0, 0, 79, 59))
+        for files, texts in (((shown,), ["its input 40x24+0+0"]), ((self.output, shown), ["its reference 80x60+0+0"]),
+                             ((shown, shown), ["its input 40x24+0+0"])):
+            result = self.report(self.samples, *files)
+            self.expect(result, 0)
+            notes = [line for line in result.stderr.splitlines() if "display window" in line]
+            self.assertEqual(len(notes), len(texts), result.stderr)
+            for note, text in zip(notes, texts):
+                self.assertTrue(note.startswith("rpf: note: ") and note.endswith(text), note)
+        self.assertNotIn("display window", self.report().stderr)
+        self.assertEqual(run("report", self.samples, shown, "-o", self.page, "-q").stderr, "")
+
     def test_errors_name_the_file_and_leave_nothing(self):
         other = self.folder / "other.exr"
         self.expect(run("scene", "dof", "--size", "44x24", "--reference", 2, "-o", other, "-q"), 0)
@@ -179,6 +194,7 @@ class ReportTest(CommandCase):
                 self.assertFalse(self.page.exists())
         self.expect(self.report(page=self.folder / "none" / "page.html"), 4, "none")
         self.expect(self.report(page=self.output), 2)
+        self.expect(run("report", self.samples, self.output, "-o", self.page, "--backend", "opencl"), 2, "--backend")
         self.expect(run(self.samples, "-o", self.output, "--report", self.output), 2)
 
 

@@ -22,10 +22,11 @@ def frame(width=8, height=6, spp=4, x0=0, y0=0, seed=1):
 
 
 def write_raw(path, channels, width=8, height=6, spp=4, x0=0, y0=0):
+    """`spp`: of all pixels, or a list of those of each."""
     header = {"format": "rpf-raw-samples", "version": 1, "dataWindow": [x0, y0, width, height], "channels": list(channels), "metadata": {}}
     with open(path, "wb") as file:
         file.write(json.dumps(header).encode() + b"\n")
-        np.full(width * height, spp, "<u4").tofile(file)
+        np.broadcast_to(np.asarray(spp, "<u4"), width * height).tofile(file)
         for values in channels.values():
             np.asarray(values, "<f4").tofile(file)
 

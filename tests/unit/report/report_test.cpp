@@ -134,6 +134,18 @@ TEST(ReportPlot, WithoutAPointIsEmpty) {
   EXPECT_THAT(svg_of(plot), HasSubstr("</svg>"));
 }
 
+TEST(ReportPlot, OfOneValueHasARangeAndNothingToSay) {
+  for (const double value : {0.0, 1.0, 1e9})
+    for (const bool bars : {false, true}) {
+      Plot plot = two_points();
+      plot.bars = bars;
+      plot.curves[0].points = {{value, value}};
+      ::testing::internal::CaptureStderr();
+      EXPECT_THAT(svg_of(plot), HasSubstr("</svg>"));
+      EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << value << bars;
+    }
+}
+
 TEST(ReportPlot, DrawsBarsAndTicks) {
   Plot plot = two_points();
   plot.bars = true;
