@@ -25,7 +25,7 @@ class Estimated {
         backend_(make_backend(settings)) {
     result_.position = position;
     check_memory(samples, settings);
-    Observed observed = observe(std::move(samples), settings, find_network(settings.model, settings.max_memory));
+    Observed observed = observe(std::move(samples), settings, find_network(settings.model));
     prepared_ = std::move(observed.prepared);
     check_has_samples(position, number_, prepared_.frame.first_sample);
     plan_ = std::move(observed.plan);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "frame/clean.h"
 #include "frame/tally.h"
 
 namespace rpf {
@@ -53,7 +54,7 @@ class RandomCheck : public SampleCheck {
   Guess is_signed_{"which look like -1 to 1; write (r + 1) / 2"};
 };
 
-/// Coverage; what is not finite is told as such.
+/// Coverage; what is missing is told as such.
 class AlphaCheck : public SampleCheck {
  public:
   explicit AlphaCheck(std::size_t column) : column_(column) {}
@@ -64,7 +65,7 @@ class AlphaCheck : public SampleCheck {
 
   void add(const float* record, std::size_t pixel) override {
     const float alpha = record[column_];
-    if ((alpha >= least && alpha <= most) || !std::isfinite(alpha)) return;
+    if ((alpha >= least && alpha <= most) || is_missing(alpha)) return;
     outside_.add(pixel);
     bytes_.agreeing += alpha > 0 && alpha <= 255 && alpha == std::floor(alpha) ? 1 : 0;
   }

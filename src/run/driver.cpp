@@ -50,7 +50,7 @@ class Run {
     check_memory(samples, settings);
     backend_ = make_backend(settings);
     if (settings.method == Method::learned) {
-      take(observe(std::move(samples), settings, find_network(settings.model, settings.max_memory)));
+      take(observe(std::move(samples), settings, find_network(settings.model)));
       return;
     }
     prepared_ = prepare(std::move(samples), settings);
@@ -71,7 +71,7 @@ class Run {
       : Run(rows, frame, settings, control) {
     backend_ = make_backend(settings);
     if (const auto* observed = std::get_if<ObservedFindings>(&facts)) {
-      take(observe_frame(frame, *observed, settings, find_network(settings.model, settings.max_memory)));
+      take(observe_frame(frame, *observed, settings, find_network(settings.model)));
       clean_again(rows, find_columns(frame, settings.clamp_infinite), settings);
       const Window window = rows.data_window;
       prepared_.frame.first_sample =
@@ -106,7 +106,7 @@ class Run {
   void stream_estimate(SampleRows& rows, ScannedRows scanned, std::uint64_t at_once) {
     found_ = std::move(std::get<ObservedFindings>(scanned.facts));
     raw_ = streamed_size(rows, found_.cleaned.most_samples);
-    take(observe_frame(rows.frame(), found_, settings_, find_network(settings_.model, settings_.max_memory)));
+    take(observe_frame(rows.frame(), found_, settings_, find_network(settings_.model)));
     prepared_.frame.first_sample = std::move(scanned.first_sample);
     const std::uint64_t need = bands().bytes;
     const std::uint64_t left = settings_.max_memory > need ? settings_.max_memory - need : 0;

@@ -14,7 +14,7 @@ constexpr std::uint64_t word = sizeof(float);
 /// What a plan can be at most for samples of such a layout.
 EstimatePlan largest_plan(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {
   EstimatePlan plan;
-  plan.network = find_network(settings.model, settings.max_memory);
+  plan.network = find_network(settings.model);
   plan.width = std::max(size.width, 1);
   plan.height = static_cast<int>(size.pixels / static_cast<std::uint64_t>(plan.width));
   plan.carried = carried_count(layout, settings);

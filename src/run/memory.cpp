@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "frame/selection.h"
+#include "learned/network_file.h"
 #include "parallel/thread_count.h"
 #include "plan/sample_tree.h"
 #include "plan/view_cells.h"
@@ -128,6 +129,7 @@ std::size_t carried_count(const SampleLayout& layout, const Settings& settings) 
 
 std::uint64_t predict_memory(const FrameSize& size, const SampleLayout& layout, const Settings& settings) {
   if (settings.estimate_error) check_halves(size, settings.method);
+  if (settings.method == Method::learned) find_network(settings.model, settings.max_memory);  // whether it fits
   const std::uint64_t halves = settings.estimate_error
                                    ? size.samples * (layout.size() + spare_columns) * word  // one, and its plain mean's
                                    : 0;

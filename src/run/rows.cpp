@@ -28,7 +28,7 @@ std::pair<int, int> rows_around(const Window& crop, const SampleBuffer& frame, c
   const int y = crop.y - frame.data_window.y, height = frame.data_window.height;
   if (settings.method == Method::learned) {
     EstimatePlan plan;
-    plan.network = find_network(settings.model, settings.max_memory);
+    plan.network = find_network(settings.model);
     plan.width = frame.data_window.width;
     plan.height = height;
     const Window window = window_around(plan, {crop.x - frame.data_window.x, y, crop.width, crop.height});
