@@ -115,14 +115,14 @@ class PixelPage {
     add_weights();
     add_conclusions();
     add_histograms();
-    const std::string path = (fs::path(folder_) / (name_ + ".html")).string();
+    std::string path = (fs::path(folder_) / (name_ + ".html")).string();
     page_.write(path);
     return path;
   }
 
  private:
   std::string write_picture(const std::string& name, const Image& picture) const {
-    const std::string file = (fs::path(folder_) / name_ / (name + ".png")).string();
+    std::string file = (fs::path(folder_) / name_ / (name + ".png")).string();
     write_image(file, picture);
     return file;
   }
