@@ -335,8 +335,10 @@ MUTANTS = [
            "BenchStatistics.FiveRoundsGiveNoVerdict", "verdict: an interval of one side"),
     Mutant("bench_verdict", "src/bench/statistics.cpp", "if (ratio.high < 1)", "if (ratio.median < 1)",
            "BenchStatistics.VerdictOnlyBeyondTheSpread", "verdict: inside the spread"),
-    Mutant("bench_torn_line", "src/bench/results_file.cpp", "std::filesystem::resize_file(path_, text.size(), failure);", "",
+    Mutant("bench_torn_line", "src/bench/results_file.cpp", "std::filesystem::resize_file(path_, begin, failure);", "",
            "BenchResults.AnInterruptedLineIsDropped", "sweep: the next line is glued to a torn one"),
+    Mutant("bench_notes", "src/bench/results_file.cpp", "check_torn(path_, text.substr(begin), first_key, lines_.size());", "",
+           "BenchResults.OtherFilesAreRefusedAndLeftAlone", "sweep: notes without a line feed are emptied"),
     Mutant("bench_key", "src/bench/sweep_plan.cpp", "setting.options, round);", "setting.name, round);",
            "BenchPlan.KeysTellMeasurementsApart", "sweep: a setting is known by its label"),
 
