@@ -15,7 +15,6 @@
 #include "cli/sequence_files.h"
 #include "cli/signals.h"
 #include "rpf/error.h"
-#include "rpf/outputs.h"
 
 namespace rpf::cli {
 namespace {
@@ -66,25 +65,13 @@ std::vector<FrameTask> tasks_of(const FilterOptions& filter, const SequenceOptio
   return tasks;
 }
 
-/// No file of any frame, whether it is filtered now or not, and no image.
-void check_log(const std::string& log, const FilterOptions& filter) {
-  if (log.empty()) return;
-  for (const FrameFile& file : frame_files)
-    if (FramePattern(filter.*file.path).names(log))
-      throw Error(ErrorKind::usage,
-                  fmt::format("--log-json \"{}\" is a file of another frame, by {} {}; name another file", log,
-                              file.option, filter.*file.path));
-  check_text_name(log);
-}
-
 /// The tasks themselves, once it is known that their frames are there and that none spoils what another one has.
 std::vector<FrameTask> checked(std::vector<FrameTask> tasks, const FilterOptions& filter, const SequenceOptions& o) {
   const FramePattern pattern(filter.input);
   std::vector<std::string> inputs;
   if (pattern.has_place())
     for (const int number : pattern.listed()) inputs.push_back(pattern.path_of(number));
-  check_sequence_files(tasks, inputs, o.log);
-  check_log(o.log, filter);
+  check_sequence_files(tasks, inputs, filter, o.log);
   if (pattern.has_place() && !o.skip_bad_frames) check_frames_are_there(tasks);
   return tasks;
 }

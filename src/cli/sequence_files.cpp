@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "cli/filter_input.h"
+#include "cli/frame_numbers.h"
 #include "rpf/error.h"
 #include "rpf/outputs.h"
 
@@ -29,18 +30,25 @@ Owners readers_of(const std::vector<FrameTask>& tasks, const std::vector<std::st
   return readers;
 }
 
-void check_log(const std::string& log, const Owners& readers, const Owners& writers) {
+/// No file of any frame, whether it is filtered now or not, and no image.
+void check_log(const std::string& log, const FilterOptions& sequence, const Owners& readers, const Owners& writers) {
   if (log.empty()) return;
   for (const Owners* owners : {&readers, &writers})
     if (const auto owner = owners->find(file_identity(log)); owner != owners->end())
       throw Error(ErrorKind::usage,
                   fmt::format("--log-json \"{}\" is a file of {}; name another file", log, owner->second));
+  for (const FrameFile& file : frame_files)
+    if (FramePattern(sequence.*file.path).names(log))
+      throw Error(ErrorKind::usage,
+                  fmt::format("--log-json \"{}\" is a file of another frame, by {} {}; name another file", log,
+                              file.option, sequence.*file.path));
+  check_text_name(log);
 }
 
 }  // namespace
 
 void check_sequence_files(const std::vector<FrameTask>& tasks, const std::vector<std::string>& inputs,
-                          const std::string& log) {
+                          const FilterOptions& sequence, const std::string& log) {
   const Owners readers = readers_of(tasks, inputs);
   Owners writers;
   for (const FrameTask& task : tasks) {
@@ -64,7 +72,7 @@ void check_sequence_files(const std::vector<FrameTask>& tasks, const std::vector
                         file.option, task.name, path, writer->second));
     }
   }
-  check_log(log, readers, writers);
+  check_log(log, sequence, readers, writers);
 }
 
 void check_frames_are_there(const std::vector<FrameTask>& tasks) {

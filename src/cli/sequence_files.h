@@ -15,9 +15,10 @@ struct FrameTask {
 };
 
 /// Throws Error(usage) where a result of a frame is a file that another frame reads or writes, or where `log` is a file
-/// of any frame. `inputs`: of the sequence, those of other frames too.
+/// of any frame or has the name of an image. `inputs`: of the sequence, those of other frames too. `sequence`: its
+/// options, with places for the number of a frame.
 void check_sequence_files(const std::vector<FrameTask>& tasks, const std::vector<std::string>& inputs,
-                          const std::string& log);
+                          const FilterOptions& sequence, const std::string& log);
 
 /// Throws Error(input) that names the frames whose input is not there, before others are filtered.
 void check_frames_are_there(const std::vector<FrameTask>& tasks);
