@@ -67,7 +67,7 @@ class AlphaCheck : public SampleCheck {
     const float alpha = record[column_];
     if ((alpha >= least && alpha <= most) || is_missing(alpha)) return;
     outside_.add(pixel);
-    bytes_.agreeing += alpha > 0 && alpha <= 255 && alpha == std::floor(alpha) ? 1 : 0;
+    bytes_.agreeing += looks_like_byte(alpha) ? 1 : 0;
   }
 
   void tell(const Window& data_window, std::vector<InputNote>& notes) const override {
@@ -109,6 +109,8 @@ void mark_outside(const float* values, float least, float most, BlockMask& odd) 
   for (std::size_t i = 0; i < block_records; ++i)
     odd[i] |= static_cast<std::int32_t>(values[i] < least) | static_cast<std::int32_t>(values[i] > most);
 }
+
+bool looks_like_byte(float value) { return value > 0 && value <= 255 && value == std::floor(value); }
 
 std::string advice_of(const std::vector<Guess>& guesses, std::uint64_t count, const std::string& otherwise) {
   for (const Guess& guess : guesses)

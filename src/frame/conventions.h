@@ -101,6 +101,9 @@ void add_surface_checks(const SampleBuffer& samples, ConventionChecks& checks);
 /// Marks what is below `least` or above `most`; NaN is neither.
 void mark_outside(const float* values, float least, float most, BlockMask& odd);
 
+/// Whether a value may be one of 0 to 255 that stand for 0 to 1; 0 itself says nothing.
+bool looks_like_byte(float value);
+
 /// A convention that values may follow in place of ours, and what to do about it.
 struct Guess {
   std::string advice;

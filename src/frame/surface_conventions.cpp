@@ -103,7 +103,7 @@ class AlbedoCheck : public SampleCheck {
       const float value = record[c];
       if ((value <= most_reflected && value >= 0) || !std::isfinite(value)) continue;
       wrong_.add(pixel);
-      bytes_.agreeing += value > 0 && value <= 255 && value == std::floor(value) ? 1 : 0;
+      bytes_.agreeing += looks_like_byte(value) ? 1 : 0;
       return;
     }
   }
