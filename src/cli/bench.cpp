@@ -43,13 +43,12 @@ void check_rendering(const bench::SweepFrame& frame, const bench::FrameJob& job,
              fmt::format(" or choose a smaller {}", limit.smaller).c_str());
 }
 
-/// That the reference can be read or made, and shows what is filtered.
-void check_reference(const bench::SweepFrame& frame, const bench::FrameJob& job, const RenderingLimit& limit) {
+/// That the reference can be read or made, and shows what is filtered: the crop, or these samples.
+void check_reference(const bench::SweepFrame& frame, const bench::FrameJob& job, const Window& samples,
+                     const RenderingLimit& limit) {
   if (job.reference.empty()) return;
   const bool is_made = is_to_come(frame, job.reference);
   if (is_made) check_reference_need(sample_options(frame), limit);
-  const Window samples =
-      is_to_come(frame, job.samples) ? window_of(frame) : inspect_samples(job.samples, job.read).data_window;
   const Window filtered = job.settings.crop.value_or(samples);
   const Window reference = is_made ? window_of(frame) : inspect_image(job.reference).data_window;
   if (!(reference == filtered))
@@ -124,11 +123,12 @@ void check_frame(const bench::SweepFrame& frame, const bench::FrameJob& job, con
     throw Error(ErrorKind::usage,
                 fmt::format("reference_spp {}: {}", frame.reference_samples, ranges::reference_samples.expected()));
   const RenderingLimit limit{frame.name, job.read.max_memory, smaller};
+  Window samples = window_of(frame);
   if (is_to_come(frame, job.samples))
     check_rendering(frame, job, limit);
   else
-    inspect_samples(job.samples, job.read);
-  check_reference(frame, job, limit);
+    samples = inspect_samples(job.samples, job.read).data_window;
+  check_reference(frame, job, samples, limit);
 }
 
 Control stoppable() {

@@ -221,20 +221,23 @@ std::vector<PlannedOutput> planned_outputs(const std::string& stem, const fs::pa
           in_folder(stem + ".pictures", "picture.png")};
 }
 
-}  // namespace
-
-void check_experiment(const Experiment& experiment, const StudyOptions& options) {
-  checked_plan(experiment, options);
+/// The runs, once it is known that they and all files can be.
+std::vector<Run> checked_runs(const Experiment& experiment, const StudyOptions& options) {
+  std::vector<Run> runs = checked_plan(experiment, options);
   report::check_plotting();
   make_folder(options.folder);
   const std::string stem = stem_of(experiment, options);
   check_outputs(planned_outputs(stem, options.folder), {});
   check_target(stem + ".runs.jsonl");
+  return runs;
 }
 
+}  // namespace
+
+void check_experiment(const Experiment& experiment, const StudyOptions& options) { checked_runs(experiment, options); }
+
 StudyDone run_experiment(const Experiment& experiment, const StudyOptions& options, const Watch& watch) {
-  check_experiment(experiment, options);
-  std::vector<Run> runs = checked_plan(experiment, options);
+  std::vector<Run> runs = checked_runs(experiment, options);
   const std::string stem = stem_of(experiment, options);
   const std::size_t count = runs.size();
   Measuring measuring(std::move(runs), options.folder, options, stem + ".runs.jsonl");
