@@ -72,8 +72,8 @@ class Output {
   int wait_for_end() {
     int status = 0;
     while (waitpid(child_, &status, WNOHANG) == 0) {
-      if (poll(nullptr, 0, 10) < 0 && errno == EINTR) cancel();
-      if (was_cancelled_ && Clock::now() > end_) kill(-child_, SIGKILL);
+      if (poll(nullptr, 0, glance) < 0 && errno == EINTR) cancel();
+      if (is_out_of_patience()) kill(-child_, SIGKILL);
     }
     return status;
   }
@@ -82,17 +82,17 @@ class Output {
  private:
   /// Until there is something to read; false where the child was made to end.
   bool wait() {
-    for (;;) {
+    while (!is_out_of_patience()) {
       pollfd ready{in_, POLLIN, 0};
-      const int left = was_cancelled_ ? static_cast<int>((end_ - Clock::now()).count() / 1000000) : -1;
-      const int found = was_cancelled_ && left <= 0 ? 0 : poll(&ready, 1, left);
+      const int found = poll(&ready, 1, was_cancelled_ ? glance : -1);
       if (found > 0) return true;
       if (found < 0 && errno == EINTR) cancel();  // a signal; read() would be restarted behind our back
-      if (found < 0) continue;
-      kill(-child_, SIGKILL);
-      return false;
     }
+    kill(-child_, SIGKILL);
+    return false;
   }
+
+  bool is_out_of_patience() const { return was_cancelled_ && Clock::now() > end_; }
 
   void cancel() {
     if (was_cancelled_) return;
@@ -100,6 +100,8 @@ class Output {
     was_cancelled_ = true;
     end_ = Clock::now() + std::chrono::seconds(1);
   }
+
+  static constexpr int glance = 10;  ///< ms between two looks at the clock
 
   int in_;
   pid_t child_;
