@@ -55,8 +55,8 @@ RPF_INLINE float rpf_apart(const RPF_SHARED float* metric, const RPF_SHARED floa
   int next = 0;
   for (int i = 0; i < RPF_DIMENSIONS; ++i) {
     float row = 0.0f;
-    for (int j = i; j < RPF_DIMENSIONS; ++j) row += metric[next++] * off[j];
-    sum += off[i] * row;
+    for (int j = i; j < RPF_DIMENSIONS; ++j) row = rpf_added(row, metric[next++] * off[j]);
+    sum = rpf_added(sum, off[i] * row);
   }
   return sum;
 }

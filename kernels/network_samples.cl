@@ -165,7 +165,7 @@ static void guide_statistics(__global const float* record, __global const int* c
       first = value[0];
       for (uint s = 1; s < count; ++s) {
         const float d = value[(size_t)s * (size_t)c->variables] - first;
-        sum += d;
+        sum = rpf_added(sum, d);
         squares = fma(d, d, squares);
       }
     }
@@ -315,7 +315,7 @@ __kernel void sum_samples(__global const float* weights, __global const float* s
     for (int k = 0; k < 3; ++k)
       out[(RPF_SUM_BASE + k) * plane] = weighted_sum(weights + samples.first, base + k, RPF_SEEN, samples.count);
     float total = 0.0f;
-    for (uint s = 0; s < samples.count; ++s) total += weights[samples.first + s];
+    for (uint s = 0; s < samples.count; ++s) total = rpf_added(total, weights[samples.first + s]);
     out[RPF_SUM_WEIGHT * plane] = total;
     close_planes(row, plane, planes, x, x + 1, c.width, -0.0f);
   }

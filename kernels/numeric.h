@@ -71,6 +71,16 @@ inline uint mul_hi(uint a, uint b) { return static_cast<uint>((std::uint64_t{a} 
 #include "elementwise.h"
 #endif
 
+// sum + value as a link of a sum in a loop. The same number, but compilers leave it in its place: Intel's takes the
+// additions of such a loop in another order, whatever it is told.
+RPF_INLINE float rpf_added(float sum, float value) {
+#ifdef __cplusplus
+  return sum + value;
+#else
+  return fma(value, 1.0f, sum);
+#endif
+}
+
 #ifdef __cplusplus
 }  // namespace rpf::kernel
 #endif

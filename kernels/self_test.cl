@@ -24,3 +24,10 @@ __kernel void self_test(__global const float* a, __global const float* b, __glob
   result[6] = lane_of(sqrt(fabs(vector_a)) / vector_b, lane);
   result[7] = (float)(rpf_hash(as_uint(a[i]), as_uint(b[i]), i).x >> 8);
 }
+
+// A sum in order. It has no loop around it: that is where Intel's compiler takes additions in another one.
+__kernel void self_test_sum(__global const float* values, __global float* result, const uint count) {
+  float sum = 0.0f;
+  for (uint k = 0; k < count; ++k) sum = rpf_added(sum, values[k]);
+  result[get_global_id(0)] = sum;
+}

@@ -16,7 +16,7 @@ RPF_INLINE float rpf_squared_distance(const RPF_PLANES float* planes, uint first
   float sum = 0.0f;
   for (uint k = 0; k < count; ++k) {
     const float off = planes[(first + k) * stride + q] - planes[(first + k) * stride + p];
-    sum += off * off;
+    sum = rpf_added(sum, off * off);
   }
   return sum;
 }
@@ -30,8 +30,8 @@ RPF_INLINE float rpf_spacing(const RPF_PLANES float* planes, const rpf_pixel_ste
     if (u < 0 || v < 0 || u >= step->width || v >= step->height) continue;
     const size_t p = (size_t)y * (size_t)step->width + (size_t)x, q = (size_t)v * (size_t)step->width + (size_t)u;
     const float there = planes[step->mask * stride + q];
-    sum += there * rpf_squared_distance(planes, step->mask + 1, step->count, stride, p, q);
-    known += there;
+    sum = rpf_added(sum, there * rpf_squared_distance(planes, step->mask + 1, step->count, stride, p, q));
+    known = rpf_added(known, there);
   }
   return known > 0.0f ? sum / known : 0.0f;
 }

@@ -219,7 +219,7 @@ RPF_INLINE void rpf_find_shares(float reach, const rpf_seen* seen, rpf_surface s
   for (uint i = surface.first; i < surface.end; ++i) {
     const float nearness = 1.0f - sqrt(seen->near[i].distance) / reach;
     share[i] = nearness > RPF_LEAST_NEARNESS ? nearness : RPF_LEAST_NEARNESS;
-    sum += share[i];
+    sum = rpf_added(sum, share[i]);
   }
   for (uint i = surface.first; i < surface.end; ++i) share[i] /= sum;
 }
@@ -234,7 +234,7 @@ RPF_INLINE void rpf_add_surface(float reach, const rpf_view_sums* s, size_t pixe
     const float mean = s->means[c * s->pixels + pixel];
     float off = 0.0f;
     for (uint i = surface.first; i < surface.end; ++i)
-      off += share[i] * (s->colors[(size_t)seen->near[i].sample * s->carried + c] - mean);
+      off = rpf_added(off, share[i] * (s->colors[(size_t)seen->near[i].sample * s->carried + c] - mean));
     s->sums[c * s->pixels + pixel] += off;
   }
   s->sums[s->carried * s->pixels + pixel] += 1.0f;
