@@ -100,7 +100,7 @@ MUTANTS = [
     Mutant("cl_halve", NETWORK, "sum += vload8(0, upper + at + stride);\n", "sum += vload8(0, upper + at);\n", LEARNED + "down1a", "a cell twice"),
     Mutant("cl_coarse", LAYERS, "return (c + kx + 1) / 2;", "return (c + kx) / 2;", LEARNED + "up1a", "the coarse cell beside"),
     Mutant("cl_learned_weight", SAMPLES, "float16 logit = output[RPF_WEIGHT_FEATURES];", "float16 logit = 0.0f;", LEARNED + "weights", "no bias"),
-    Mutant("cl_sums", SAMPLES, "total += weights[samples.first + s];", "total += weights[samples.first];", LEARNED + "sums", "the first sample for all"),
+    Mutant("cl_sums", SAMPLES, "rpf_added(total, weights[samples.first + s])", "rpf_added(total, weights[samples.first])", LEARNED + "sums", "the first sample for all"),
     Mutant("cl_taps", PASSES, "total += row[t];", "total += t == 4 ? 0.0f : row[t];", LEARNED + "pass0", "a tap is not counted"),
     Mutant("cl_edge_weights", PASSES, "begin == 0 && x < RPF_MARGIN; ++x) row[x] = RPF_NOT_THERE", "begin == 0 && x < RPF_MARGIN; ++x) row[x] = 0.0f",
            LEARNED + "pass0", "pixels beside the frame weigh"),
