@@ -14,16 +14,17 @@ namespace {
 class LayerText {
  public:
   LayerText(const LayerShape& shape, const Blocking& blocking) : shape_(shape) {
-    const int outputs = padded(shape.outputs);
-    lanes_ = outputs % blocking.lanes == 0 ? blocking.lanes : 8;
-    const int vectors = outputs / lanes_;
+    std::vector<Vector> all;
+    for (int first = 0, outputs = padded(shape.outputs); first < outputs; first += all.back().lanes)
+      all.push_back({first, outputs - first < blocking.lanes ? 8 : blocking.lanes});
+    const int vectors = static_cast<int>(all.size());
     // A vector of weights each, and one with an input in all lanes.
     const auto fit = [&](int cells) { return std::max((blocking.registers - 1) / (cells + 1), 1); };
     const int most = vectors <= fit(RPF_CELLS) ? fit(RPF_CELLS) : fit(RPF_CELLS / 2);
     const int groups = (vectors + most - 1) / most, largest = (vectors + groups - 1) / groups;
     cells_ = largest <= fit(RPF_CELLS) ? RPF_CELLS : RPF_CELLS / 2;
     for (int first = 0; first < vectors; first += largest)
-      groups_.push_back({first * lanes_, std::min(largest, vectors - first)});
+      groups_.emplace_back(all.begin() + first, all.begin() + std::min(first + largest, vectors));
   }
 
   std::string text() {
@@ -47,9 +48,11 @@ class LayerText {
   }
 
  private:
-  struct Group {
-    int first, vectors;  ///< first output
+  /// Some outputs; 8 where what is left does not fill a register.
+  struct Vector {
+    int first, lanes;
   };
+  using Group = std::vector<Vector>;  ///< whose sums are made together
 
   template <typename... Values>
   void line(const std::string& format, const Values&... values) {
@@ -63,15 +66,15 @@ class LayerText {
   template <typename Body>
   void for_all(const Group& group, Body body) {
     for (int c = 0; c < cells_; ++c)
-      for (int v = 0; v < group.vectors; ++v) body(c, v, group.first + v * lanes_);
+      for (const Vector& vector : group) body(c, vector);
   }
 
   /// All outputs of a group for the cells from x on.
   void sums(const Group& group) {
-    for_all(group, [&](int c, int v, int output) {
-      line("      float{} a{}_{} = vload{}(0, bias + {});", lanes_, c, v, lanes_, output);
+    for_all(group, [&](int c, const Vector& v) {
+      line("      float{} a{}_{} = vload{}(0, bias + {});", v.lanes, c, v.first, v.lanes, v.first);
     });
-    line("      __global const float* w = weights + {};", group.first);
+    line("      __global const float* w = weights;");
     if (shape_.records) {
       add_record_inputs(group);
     } else if (shape_.taps == 1) {
@@ -84,10 +87,10 @@ class LayerText {
       add_row(group);
       line("      }}");
     }
-    for_all(group, [&](int c, int v, int output) {
+    for_all(group, [&](int c, const Vector& v) {
       line(shape_.leaky ? "      vstore{}(rpf_leaky(a{}_{}), 0, line + x * {} + {});"
                         : "      vstore{}(a{}_{}, 0, line + x * {} + {});",
-           lanes_, c, v, shape_.out_stride, c * shape_.out_stride + output);
+           v.lanes, c, v.first, shape_.out_stride, c * shape_.out_stride + v.first);
     });
   }
 
@@ -127,17 +130,18 @@ class LayerText {
   template <typename Input>
   void add_inputs_at(const Group& group, const std::string& inputs, Input input) {
     line("      for (int j = 0; j < {}; ++j, w += {}) {{", inputs, padded(shape_.outputs));
-    for (int v = 0; v < group.vectors; ++v)
-      line("        const float{} w{} = vload{}(0, w + {});", lanes_, v, lanes_, v * lanes_);
+    for (const Vector& v : group)
+      line("        const float{} w{} = vload{}(0, w + {});", v.lanes, v.first, v.lanes, v.first);
     for (int c = 0; c < cells_; ++c) {
-      line("        const float{} b{} = {};", lanes_, c, input(c));
-      for (int v = 0; v < group.vectors; ++v) line("        a{}_{} = fma(b{}, w{}, a{}_{});", c, v, c, v, c, v);
+      line("        const float b{} = {};", c, input(c));
+      for (const Vector& v : group)
+        line("        a{}_{} = fma((float{})b{}, w{}, a{}_{});", c, v.first, v.lanes, c, v.first, c, v.first);
     }
     line("      }}");
   }
 
   const LayerShape& shape_;
-  int lanes_ = 8, cells_ = RPF_CELLS;
+  int cells_ = RPF_CELLS;
   std::vector<Group> groups_;
   std::string text_;
 };
