@@ -12,32 +12,51 @@ static void store_weight(float16 logit, int value, int embedding, __global const
   if (g < 0)
     vstore16(value < embedding ? rpf_embedding(logit) : rpf_own_weight(logit), 0,
              out + (value < embedding ? value : embedding + RPF_GUIDES) * plane);
-  else if (g < RPF_GUIDES)
+  else
     vstore16(rpf_bandwidth(logit) * vload16(0, guide + g * guide_plane), 0, out + (value - 1) * plane);
 }
 
-// `heads`: cells of so many values, in which a pass's outputs begin at 0.
-__kernel void embed(__global const float* heads, __global const float* guides, __global float* weights,
-                    const rpf_area area, const rpf_grid head_grid, const rpf_grid guide_grid, const rpf_grid grid,
-                    const int head_stride, const int embedding) {
+// A pass's outputs of the head for RPF_LANES cells, generated behind this text (src/opencl/layer_blocking.cpp):
+// out[RPF_PASS_VALUES][cell] from in[RPF_HEAD_INPUTS][cell].
+static void head_of_pass(const float* in, __global const float* weights, __global const float* bias, float* out);
+
+// Columns of RPF_LANES cells from x on, of which `last` is the last; that one once more in the place of those behind.
+static void load_cells(__global const float* cells, int stride, int x, int last, float* columns) {
+  for (int first = 0; first < RPF_HEAD_INPUTS; first += RPF_LANES) {
+    float16 rows[RPF_LANES];
+#pragma unroll
+    for (int l = 0; l < RPF_LANES; ++l) rows[l] = vload16(0, cells + min(x + l, last) * stride + first);
+    transpose(rows);
+#pragma unroll
+    for (int k = 0; k < RPF_LANES; ++k)
+      if (first + k < RPF_HEAD_INPUTS) vstore16(rows[k], first + k, columns);
+  }
+}
+
+// What a pass weighs with. `cells`: of the last layer; `weights`, `bias`: of the head's outputs for this pass; `logits`:
+// planes of these outputs, where somebody wants them (its grid has rows then).
+__kernel void embed(__global const float* cells, __global const float* guides, __global const float* weights,
+                    __global const float* bias, __global float* out, __global float* logits, const rpf_area area,
+                    const rpf_grid cell_grid, const rpf_grid guide_grid, const rpf_grid grid, const rpf_grid logit_grid,
+                    const int cell_stride, const int embedding) {
   const int plane = plane_of(&grid, embedding + RPF_GUIDES + 1), guide_plane = plane_of(&guide_grid, RPF_GUIDES);
+  const int logit_plane = plane_of(&logit_grid, RPF_PASS_VALUES);
   for (int i = first_part(); i < end_part(&area); i += (int)get_global_size(0)) {
     const int y = row_of_part(&area, i), begin = begin_of_part(&area, i), end = end_of_part(&area, i);
-    __global const float* cells = heads + row_at(&head_grid, y) + RPF_BORDER * head_stride;
+    __global const float* line = cells + row_at(&cell_grid, y) + RPF_BORDER * cell_stride;
     __global const float* guide = guides + row_at(&guide_grid, y) + RPF_MARGIN;
-    __global float* row = weights + row_at(&grid, y);
-    for (int x = begin; x < end; x += RPF_LANES)
-      for (int first = 0; first <= embedding + RPF_GUIDES; first += RPF_LANES) {
-        float16 rows[RPF_LANES];
-        // Behind the last cell of a row it is read again.
-#pragma unroll
-        for (int l = 0; l < RPF_LANES; ++l)
-          rows[l] = vload16(0, cells + min(x + l, area.width - 1) * head_stride + first);
-        transpose(rows);
-#pragma unroll
-        for (int k = 0; k < RPF_LANES; ++k)
-          store_weight(rows[k], first + k, embedding, guide + x, guide_plane, row + RPF_PLACES(x), plane);
+    __global float* row = out + row_at(&grid, y);
+    for (int x = begin; x < end; x += RPF_LANES) {
+      float inputs[RPF_HEAD_INPUTS * RPF_LANES], values[RPF_PASS_VALUES * RPF_LANES];
+      load_cells(line, cell_stride, x, area.width - 1, inputs);
+      head_of_pass(inputs, weights, bias, values);
+      for (int k = 0; k < RPF_PASS_VALUES; ++k) {
+        const float16 value = vload16(k, values);
+        store_weight(value, k, embedding, guide + x, guide_plane, row + RPF_PLACES(x), plane);
+        if (logit_grid.rows > 0)
+          vstore16(value, 0, logits + row_at(&logit_grid, y) + k * logit_plane + RPF_PLACES(x));
       }
+    }
     for (int x = 0; begin == 0 && x < RPF_MARGIN; ++x) row[x] = RPF_NOT_THERE;
     for (int x = RPF_PLACES(area.width); end == area.width && x < plane; ++x) row[x] = RPF_NOT_THERE;
   }

@@ -83,9 +83,13 @@ void EstimateRun::run_halve(const EstimateStep& step, int first, int end) {
 }
 
 void EstimateRun::run_embed(const EstimateStep& step, int first, int end) {
-  const DeviceGrid &head = grid(step.in[0]), &guides = grid(step.in[1]), &out = grid(step.out.front());
-  launch(embed_, head.buffer, guides.buffer, out.buffer, area(step, first, end), head.rows, guides.rows, out.rows,
-         head.stored, job_.plan.network->embedding);
+  const DeviceGrid &cells = grid(step.in[0]), &guides = grid(step.in[1]), &out = grid(step.out.front());
+  const bool keeps_logits = step.out.size() > 1;
+  const DeviceGrid& logits = grid(step.out.back());
+  const DeviceLayer& head = program_.head(step.number);
+  launch(embed_, cells.buffer, guides.buffer, head.weights, head.bias, out.buffer, logits.buffer,
+         area(step, first, end), cells.rows, guides.rows, out.rows, keeps_logits ? logits.rows : kernel::rpf_grid{},
+         cells.stored, job_.plan.network->embedding);
 }
 
 void EstimateRun::run_weigh(const EstimateStep& step, int first, int end) {
@@ -122,7 +126,7 @@ void EstimateRun::run_step(const EstimateStep& step, int first, int end, const P
       run_layer(step, program_.layer(static_cast<std::size_t>(step.number)), first, end);
       break;
     case Kind::head:
-      run_layer(step, step.number < 0 ? program_.first_head() : program_.head(step.number), first, end);
+      run_layer(step, program_.first_head(), first, end);
       break;
     case Kind::halve:
       run_halve(step, first, end);
@@ -198,7 +202,7 @@ EstimateStage EstimateRun::stage(int number, const std::string& name) {
 EstimateStage EstimateRun::head_stage() {
   std::vector<EstimateStage> parts;
   for (const EstimateStep& step : steps_.steps)
-    if (step.kind == Kind::head) parts.push_back(stage(step.out.front(), ""));
+    if (step.kind == Kind::head || step.kind == Kind::embed) parts.push_back(stage(step.out.back(), ""));
   EstimateStage all{"head", 0, {}};
   for (const EstimateStage& part : parts) all.channels += part.channels;
   for (std::size_t pixel = 0; pixel < job_.window.pixel_count(); ++pixel)

@@ -29,20 +29,25 @@ double products(const NetworkLayer& layer) { return static_cast<double>(layer.in
 /// Builds the lists.
 class Builder {
  public:
-  Builder(EstimateSteps& steps, const EstimatePlan& plan, const Window& window, double samples)
-      : out_(steps), plan_(plan), network_(*plan.network), window_(window), samples_(samples / window.height) {}
+  /// `whole_head`: keeps all that the head says, also what the result does not need.
+  Builder(EstimateSteps& steps, const EstimatePlan& plan, const Window& window, double samples, bool whole_head)
+      : out_(steps),
+        plan_(plan),
+        network_(*plan.network),
+        window_(window),
+        samples_(samples / window.height),
+        whole_head_(whole_head) {}
 
-  /// `whole_head`: also what the result does not need.
-  void build(bool whole_head) {
+  void build() {
     const int last = layers(see());
-    out_.heads = head(last, EstimateStep::before_passes);
+    out_.heads = head(last);
     const int sums = make(Kind::sum, 0, {out_.heads}, planes("sums", sum_count()), 0, samples_ * sample_work() * 1.1);
     const int filtered = passes(last, sums, 0, RPF_COLOR_PASSES);
     const int albedo = plan_.has_albedo ? passes(last, out_.albedo, RPF_COLOR_PASSES, RPF_ALBEDO_PASSES) : out_.albedo;
     EstimateGrid result = planes("result", static_cast<int>(plan_.carried));
     std::vector<int> read = {filtered, albedo, out_.heads};
-    for (int pass = RPF_COLOR_PASSES; whole_head && !plan_.has_albedo && pass < RPF_NETWORK_PASSES; ++pass)
-      read.push_back(head(last, pass));
+    for (int pass = RPF_COLOR_PASSES; whole_head_ && !plan_.has_albedo && pass < RPF_NETWORK_PASSES; ++pass)
+      read.push_back(embed(last, pass));
     out_.result = make(Kind::finish, 0, read, result, 0, 30.0 * window_.width);
   }
 
@@ -122,16 +127,24 @@ class Builder {
     return last;
   }
 
-  int head(int last, int pass) {
-    const int values = pass < 0 ? RPF_CONTEXT + 1 : network_.embedding + 1 + RPF_GUIDES;
-    return make(Kind::head, pass, {last}, cells("", values, 0), 0, 1.0 * window_.width * network_.channels[0] * values);
+  /// Context and blend.
+  int head(int last) {
+    const int values = RPF_CONTEXT + 1;
+    return make(Kind::head, 0, {last}, cells("", values, 0), 0, 1.0 * window_.width * network_.channels[0] * values);
+  }
+
+  int embed(int last, int pass) {
+    const int terms = network_.embedding + RPF_GUIDES;
+    std::vector<int> made = {add(planes("", terms + 1))};
+    if (whole_head_) made.push_back(add(planes("", terms + 1)));
+    return make_all(Kind::embed, pass, {last, guides_}, made, 0,
+                    window_.width * (1.0 * network_.channels[0] * (terms + 1) + 10.0 * terms));
   }
 
   int passes(int last, int values, int first, int count) {
     for (int pass = first; pass < first + count; ++pass) {
       const int terms = network_.embedding + RPF_GUIDES, kept = out_.grids[static_cast<std::size_t>(values)].values;
-      const int embedded =
-          make(Kind::embed, pass, {head(last, pass), guides_}, planes("", terms + 1), 0, 10.0 * window_.width * terms);
+      const int embedded = embed(last, pass);
       const int weights = make(Kind::weigh, pass, {embedded}, planes("", RPF_PASS_PAIRS + 1), 0,
                                1.0 * RPF_PASS_PAIRS * window_.width * (terms + 15));
       // Values first: they come from the samples, which may be gone by the time that all weights are there.
@@ -146,6 +159,7 @@ class Builder {
   const Network& network_;
   Window window_;
   double samples_;  ///< a row
+  bool whole_head_;
   int guides_ = 0;
 };
 
@@ -160,7 +174,7 @@ int EstimateGrid::pitch() const {
 
 EstimateSteps::EstimateSteps(const EstimatePlan& plan, const Window& window, double samples, int first, int end,
                              bool keep_all) {
-  Builder(*this, plan, window, samples).build(keep_all);
+  Builder(*this, plan, window, samples, keep_all).build();
   pipeline.plan(result, first, end, keep_all);
 }
 

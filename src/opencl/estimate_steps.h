@@ -24,11 +24,10 @@ struct EstimateGrid {
 struct EstimateStep {
   enum class Kind { see, layer, halve, head, sum, embed, weigh, pass, finish };
   Kind kind = Kind::layer;
-  int number = 0;            ///< of the layer in the network, or of the pass; the head for samples is before_passes
+  int number = 0;            ///< of the layer in the network, or of the pass
   int level = 0;             ///< of what it makes
-  std::vector<int> in, out;  ///< grids
+  std::vector<int> in, out;  ///< grids; what the head says of a pass stands, where it is kept, behind its embedding
   double row_work = 0;       ///< multiply-adds a row, about
-  static constexpr int before_passes = -1;  ///< of a head: context and blend
 };
 
 /// All steps over a window, with the rows that are kept.

@@ -146,6 +146,43 @@ class LayerText {
   std::string text_;
 };
 
+/// The outputs of the head for a pass, of RPF_LANES cells: lanes are cells here, which passes read side by side.
+class HeadText {
+ public:
+  HeadText(int inputs, int outputs, const Blocking& blocking)
+      : inputs_(inputs), outputs_(outputs), lanes_(blocking.lanes), most_(blocking.registers - 2) {}
+
+  std::string text() {
+    line("static void head_of_pass(const float* in, __global const float* weights, __global const float* bias,");
+    line("                         float* out) {{");
+    line("  for (int c = 0; c < {}; c += {}) {{", RPF_LANES, lanes_);
+    const int groups = (outputs_ + most_ - 1) / most_, largest = (outputs_ + groups - 1) / groups;
+    for (int first = 0; first < outputs_; first += largest) sums(first, std::min(first + largest, outputs_));
+    line("  }}");
+    line("}}");
+    return text_;
+  }
+
+ private:
+  template <typename... Values>
+  void line(const std::string& format, const Values&... values) {
+    text_ += fmt::format(fmt::runtime(format), values...) + "\n";
+  }
+
+  void sums(int first, int end) {
+    for (int o = first; o < end; ++o) line("    float{} a{} = bias[{}];", lanes_, o, o);
+    line("    for (int j = 0; j < {}; ++j) {{", inputs_);
+    line("      const float{} value = vload{}(0, in + {} * j + c);", lanes_, lanes_, RPF_LANES);
+    line("      __global const float* w = weights + {} * j;", padded(outputs_));
+    for (int o = first; o < end; ++o) line("      a{} = fma(value, (float{})w[{}], a{});", o, lanes_, o, o);
+    line("    }}");
+    for (int o = first; o < end; ++o) line("    vstore{}(a{}, 0, out + {} * {} + c);", lanes_, o, RPF_LANES, o);
+  }
+
+  int inputs_, outputs_, lanes_, most_;
+  std::string text_;
+};
+
 }  // namespace
 
 std::string LayerShape::name() const {
@@ -157,5 +194,9 @@ std::string LayerShape::name() const {
 }
 
 std::string layer_text(const LayerShape& shape, const Blocking& blocking) { return LayerText(shape, blocking).text(); }
+
+std::string head_text(int inputs, int outputs, const Blocking& blocking) {
+  return HeadText(inputs, outputs, blocking).text();
+}
 
 }  // namespace rpf

@@ -36,4 +36,8 @@ constexpr int padded(int values) { return (values + 7) / 8 * 8; }
 /// bias, out, columns, rpf_layer, row).
 std::string layer_text(const LayerShape& shape, const Blocking& blocking);
 
+/// The function head_of_pass() of kernels/network_passes.cl: a dense layer without lrelu, weights
+/// [input][padded(outputs)].
+std::string head_text(int inputs, int outputs, const Blocking& blocking);
+
 }  // namespace rpf

@@ -1,5 +1,7 @@
 #include "opencl/network_program.h"
 
+#include <fmt/format.h>
+
 #include <numeric>
 #include <set>
 
@@ -100,13 +102,16 @@ void NetworkProgram::compile(const Blocking& blocking, const Check& check) {
   const auto for_all = [&](auto body) {
     for (std::size_t i = 0; i < layers_.size(); ++i)
       if (i + 3 != layers_.size() && i + 1 != layers_.size()) body(layers_[i]);  // neither head nor weight2
-    for (DeviceLayer& head : heads_) body(head);
+    body(heads_[0]);
   };
   for_all([&](const DeviceLayer& layer) {
     if (names.insert(layer.shape.name()).second) text += layer_text(layer.shape, blocking);
   });
-  session_.rehearse("network.cl", "", text, check);
-  program_ = session_.compile("network.cl", "", text);
+  const LayerShape& pass = heads_[1].shape;
+  text += head_text(pass.own, pass.outputs, blocking);
+  const std::string definitions = fmt::format("-DRPF_HEAD_INPUTS={} -DRPF_PASS_VALUES={}", pass.own, pass.outputs);
+  session_.rehearse("network.cl", definitions, text, check);
+  program_ = session_.compile("network.cl", definitions, text);
   for_all([&](DeviceLayer& layer) {
     if (layer.shape.samples.empty()) layer.kernel = kernel(layer.shape.name());
   });

@@ -13,7 +13,7 @@ namespace rpf {
 /// A layer, or some of its outputs.
 struct DeviceLayer {
   LayerShape shape;
-  cl::Kernel kernel;  ///< none of samples: kernels/network_samples.cl calls these layers
+  cl::Kernel kernel;  ///< none of samples and of passes: functions that kernels/*.cl call
   cl::Buffer weights, bias;
 };
 
@@ -29,7 +29,7 @@ class NetworkProgram {
   cl::Kernel kernel(const std::string& name) const { return {program_, name.c_str()}; }
   /// A layer by its number in the network: all but the head and weight2. sample1 has live inputs only.
   const DeviceLayer& layer(std::size_t number) const { return layers_[number]; }
-  /// Of the head: context and blend; what a pass needs.
+  /// Of the head: context and blend; what a pass needs, for the kernel `embed`.
   const DeviceLayer& first_head() const { return heads_[0]; }
   const DeviceLayer& head(int pass) const { return heads_[static_cast<std::size_t>(pass) + 1]; }
   /// Weights of weight2, then its bias.
