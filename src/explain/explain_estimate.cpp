@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 
 #include "explain/contributions.h"
 #include "explain/pixel_number.h"
@@ -10,6 +11,7 @@
 #include "rpf/explain.h"
 #include "run/backends.h"
 #include "run/memory.h"
+#include "run/plain_means.h"
 #include "run/progress_meter.h"
 
 namespace rpf {
@@ -39,17 +41,19 @@ class Estimated {
     get_ready_estimate(backend_, settings_, plan_, meter);
     backend_->load_estimate(prepared_.frame, plan_);
     const std::vector<EstimateStage> stages = backend_->trace_estimate(region);
-    const PixelShares shares = pixel_shares(plan_, stages, window, counts(window), x, y);
+    const float* color = stages.back().values.data() + place(window, x, y) * stages.back().channels;
+    const std::array<double, 3> mean = mean_color(prepared_.frame, number_);
+    const double own = own_share(prepared_.frame.samples(number_), color, mean.data(), plan_.exposure);
+    PixelShares shares = pixel_shares(plan_, stages, window, counts(window), x, y);
+    if (own > 0) draw_to_mean(shares, own, place(window, x, y), mean);
     for (int row = region.y; row < region.y + region.height; ++row)
       for (int column = region.x; column < region.x + region.width; ++column)
         result_.shares.push_back(static_cast<float>(shares.pixels[place(window, column, row)]));
     result_.window = {region.x + data_window_.x, region.y + data_window_.y, region.width, region.height};
     std::copy(shares.factor.begin(), shares.factor.end(), result_.factor.begin());
     list_samples(shares);
-    const float* color = stages.back().values.data() + place(window, x, y) * stages.back().channels;
-    const std::array<double, 3> mean = mean_color(prepared_.frame, number_);
     for (std::size_t c = 0; c < 3; ++c) {
-      result_.result.at(c) = radiance(color[c]);
+      result_.result.at(c) = radiance(static_cast<float>(color[c] + own * (mean.at(c) - color[c])));
       result_.mean.at(c) = radiance(static_cast<float>(mean.at(c)));
     }
     return std::move(result_);
@@ -70,23 +74,65 @@ class Estimated {
     return all;
   }
 
-  void list_samples(const PixelShares& shares) {
+  /// use(x, y, sample, share) for all samples of the window that have one.
+  template <typename Use>
+  void for_samples(const PixelShares& shares, Use use) const {
     const Window& window = shares.window;
     auto within = shares.within_pixels.begin();
-    double squares = 0;
     for (int y = window.y; y < window.y + window.height; ++y)
       for (int x = window.x; x < window.x + window.width; ++x) {
         const std::uint32_t first = prepared_.frame.first_sample[number(x, y)];
-        for (std::uint32_t i = 0; i < prepared_.frame.samples(number(x, y)); ++i, ++within) {
-          const double share = *within * shares.pixels[place(window, x, y)];
-          if (share <= 0) continue;
-          const float* color = prepared_.frame.record(first + i);
-          result_.samples.push_back({{x + data_window_.x, y + data_window_.y},
-                                     {radiance(color[0]), radiance(color[1]), radiance(color[2])},
-                                     static_cast<float>(share)});
-          squares += share * share;
-        }
+        for (std::uint32_t i = 0; i < prepared_.frame.samples(number(x, y)); ++i, ++within)
+          if (const double share = *within * shares.pixels[place(window, x, y)]; share > 0) use(x, y, first + i, share);
       }
+  }
+
+  /// Gives the pixel's own samples `own` more, for its mean; the factor becomes that of all.
+  void draw_to_mean(PixelShares& shares, double own, std::size_t pixel, const std::array<double, 3>& mean) const {
+    std::array<double, 3> of_passes{};
+    for_samples(shares, [&](int /*x*/, int /*y*/, std::uint32_t sample, double share) {
+      for (std::size_t c = 0; c < 3; ++c) of_passes.at(c) += share * prepared_.frame.record(sample)[c];
+    });
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double passes = (1 - own) * of_passes.at(c), all = passes + own * mean.at(c);
+      if (all != 0) shares.factor.at(c) = (shares.factor.at(c) * passes + own * mean.at(c)) / all;
+    }
+    for (double& share : shares.pixels) share *= 1 - own;
+    const std::vector<std::uint32_t> samples = counts(shares.window);
+    const auto first = std::accumulate(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(pixel), 0U);
+    const double all = shares.pixels[pixel] + own;
+    auto within = shares.within_pixels.begin() + first;
+    for (const double of_mean : shares_of_mean()) {
+      *within = (shares.pixels[pixel] * *within + own * of_mean) / all;
+      ++within;
+    }
+    shares.pixels[pixel] = all;
+  }
+
+  /// What each sample of the pixel that is explained counts in its mean.
+  std::vector<double> shares_of_mean() const {
+    const Frame& frame = prepared_.frame;
+    std::vector<double> shares(frame.samples(number_), 1.0);
+    for (std::uint32_t i = 0; i < shares.size() && !frame.weights.empty(); ++i)
+      shares[i] = frame.weight(frame.first_sample[number_] + i);
+    double total = std::accumulate(shares.begin(), shares.end(), 0.0);
+    if (total == 0) {
+      std::fill(shares.begin(), shares.end(), 1.0);
+      total = static_cast<double>(shares.size());
+    }
+    for (double& share : shares) share /= total;
+    return shares;
+  }
+
+  void list_samples(const PixelShares& shares) {
+    double squares = 0;
+    for_samples(shares, [&](int x, int y, std::uint32_t sample, double share) {
+      const float* color = prepared_.frame.record(sample);
+      result_.samples.push_back({{x + data_window_.x, y + data_window_.y},
+                                 {radiance(color[0]), radiance(color[1]), radiance(color[2])},
+                                 static_cast<float>(share)});
+      squares += share * share;
+    });
     std::stable_sort(result_.samples.begin(), result_.samples.end(),
                      [](const Contribution& a, const Contribution& b) { return a.share > b.share; });
     if (squares > 0) result_.effective_samples = static_cast<float>(1 / squares);

@@ -51,22 +51,31 @@ std::vector<float> resolve_rows(const Frame& frame, const std::vector<float>& co
   return image;
 }
 
-std::array<double, 3> mean_color(const Frame& frame, std::size_t pixel) {
-  std::array<double, 3> sum{}, plain{};
+void mean_of_pixel(const Frame& frame, std::size_t pixel, std::size_t carried, double* mean) {
+  const std::uint32_t first = frame.first_sample[pixel], end = frame.first_sample[pixel + 1];
+  const auto add = [&](std::uint32_t i, double weight) {
+    const float *color = frame.record(i), *other = frame.others.data() + (i - frame.first_record) * (carried - 3);
+    for (std::size_t c = 0; c < carried; ++c) mean[c] += weight * (c < 3 ? color[c] : other[c - 3]);
+  };
   double total = 0;
-  for (std::uint32_t i = frame.first_sample[pixel]; i < frame.first_sample[pixel + 1]; ++i) {
+  std::fill_n(mean, carried, 0.0);
+  for (std::uint32_t i = first; i < end; ++i) {
     const double weight = frame.weights.empty() ? 1 : frame.weight(i);
-    for (std::size_t c = 0; c < 3; ++c) {
-      sum.at(c) += weight * frame.record(i)[c];
-      plain.at(c) += frame.record(i)[c];
-    }
+    add(i, weight);
     total += weight;
   }
-  if (total > 0)
-    for (double& value : sum) value /= total;
-  else if (frame.samples(pixel) > 0)  // as resolve() does where no sample has a weight
-    for (std::size_t c = 0; c < 3; ++c) sum.at(c) = plain.at(c) / frame.samples(pixel);
-  return sum;
+  if (total <= 0) {  // as resolve() does where no sample has a weight
+    std::fill_n(mean, carried, 0.0);
+    for (std::uint32_t i = first; i < end; ++i) add(i, 1);
+    total = end > first ? end - first : 1;
+  }
+  for (std::size_t c = 0; c < carried; ++c) mean[c] /= total;
+}
+
+std::array<double, 3> mean_color(const Frame& frame, std::size_t pixel) {
+  std::array<double, 3> mean{};
+  mean_of_pixel(frame, pixel, 3, mean.data());
+  return mean;
 }
 
 double energy_of_means(const Frame& frame, const Window& region) {

@@ -20,6 +20,9 @@ std::vector<float> resolve_rows(const Frame& frame, const std::vector<float>& co
 /// The mean color of a pixel's samples, from the records, in double: for what is told, not for what is filtered.
 std::array<double, 3> mean_color(const Frame& frame, std::size_t pixel);
 
+/// The same of what is carried beside the color too, of a frame of the learned estimator. `mean`: [carried].
+void mean_of_pixel(const Frame& frame, std::size_t pixel, std::size_t carried, double* mean);
+
 /// Sum of the components of mean_color() over a region.
 double energy_of_means(const Frame& frame, const Window& region);
 

@@ -16,6 +16,7 @@
 #include "run/memory.h"
 #include "run/pass_summary.h"
 #include "run/picture.h"
+#include "run/plain_means.h"
 #include "run/progress_meter.h"
 #include "run/provenance.h"
 #include "run/row_window.h"
@@ -188,10 +189,14 @@ class Run {
       const double share = static_cast<double>(band.height) / crop.height;
       place(backend_->estimate(band, [&](double part) { meter.add_part(share * part); }), band, pixels);
     }
+    PlainMeans of_all(prepared_);
+    if (!stream_) of_all.add_rows(0, facts.height);
+    const PlainMeans& means = stream_ ? stream_->means() : of_all;
+    means.draw_to_means(pixels, estimate_plan_.exposure);
     Result result;
     result.report.model = estimate_plan_.network->name;
     result.report.model_hash = estimate_plan_.network->hash;
-    describe_at_once(result, pixels, stream_ ? stream_->plain_energy() : energy_of_means(prepared_.frame, crop), meter);
+    describe_at_once(result, pixels, means.energy(), meter);
     return result;
   }
 

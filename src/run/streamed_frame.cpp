@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "frame/clean.h"
-#include "frame/resolve.h"
 #include "learned/observe.h"
 #include "run/row_scan.h"
 
@@ -22,7 +21,13 @@ std::uint64_t block_bytes(const SampleRows& rows, int first, int end) {
 StreamedFrame::StreamedFrame(SampleRows& rows, const ObservedFindings& found, const Settings& settings,
                              const EstimatePlan& plan, PreparedFrame& prepared, std::vector<SampleBuffer> kept,
                              std::uint64_t memory, std::uint64_t at_once)
-    : rows_(rows), found_(found), settings_(settings), plan_(plan), prepared_(prepared), memory_(memory) {
+    : rows_(rows),
+      found_(found),
+      settings_(settings),
+      plan_(plan),
+      prepared_(prepared),
+      memory_(memory),
+      means_(prepared) {
   for (int first = 0; first < plan.height; first = blocks_.back().end) {
     Block block;
     block.first = first;
@@ -66,7 +71,7 @@ int StreamedFrame::bring(int first, int end, bool again) {
     if (!block.is_there) read(block);
     exchange_with_frame(block);
     current_ = &block;
-    add_energy(block);
+    add_means(block);
   }
   return std::min(block.end, end);
 }
@@ -117,17 +122,10 @@ void StreamedFrame::read(Block& block) {
   block.is_there = true;
 }
 
-void StreamedFrame::add_energy(const Block& block) {
+void StreamedFrame::add_means(const Block& block) {
   if (block.end <= counted_) return;
   counted_ = block.end;
-  const Window& crop = prepared_.facts.crop;
-  const int first = std::max(block.first, crop.y), end = std::min(block.end, crop.y + crop.height);
-  for (int y = first; y < end; ++y)
-    for (int x = crop.x; x < crop.x + crop.width; ++x)
-      for (const double c :
-           mean_color(prepared_.frame, static_cast<std::size_t>(y) * static_cast<std::size_t>(plan_.width) +
-                                           static_cast<std::size_t>(x)))
-        plain_energy_ += c;
+  means_.add_rows(block.first, block.end);
 }
 
 }  // namespace rpf

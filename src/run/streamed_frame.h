@@ -10,6 +10,7 @@
 #include "learned/observe_scan.h"
 #include "rpf/rows.h"
 #include "rpf/settings.h"
+#include "run/plain_means.h"
 
 namespace rpf {
 
@@ -23,8 +24,8 @@ class StreamedFrame : public RowSupply {
 
   int bring(int first, int end, bool again) override;
 
-  /// energy_of_means() over the crop, of the rows that were brought: all of them, from the first on.
-  double plain_energy() const { return plain_energy_; }
+  /// Of the rows that were brought: all of them, from the first on.
+  const PlainMeans& means() const { return means_; }
 
   /// Bytes of records that are in memory at most, whatever is kept: of the rows asked for, while they are read.
   static std::uint64_t least_bytes(const SampleRows& rows);
@@ -51,7 +52,7 @@ class StreamedFrame : public RowSupply {
   void make_room();
   SampleBuffer cleaned_rows(Block& block);
   void read(Block& block);
-  void add_energy(const Block& block);
+  void add_means(const Block& block);
 
   SampleRows& rows_;
   const ObservedFindings& found_;
@@ -62,8 +63,8 @@ class StreamedFrame : public RowSupply {
   std::vector<Block> blocks_;
   Block* current_ = nullptr;  ///< whose values are in the frame
   std::uint64_t uses_ = 0;
-  int counted_ = 0;  ///< end of the rows whose energy is known
-  double plain_energy_ = 0;
+  int counted_ = 0;  ///< end of the rows whose means are known
+  PlainMeans means_;
 };
 
 }  // namespace rpf

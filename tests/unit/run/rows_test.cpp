@@ -90,6 +90,11 @@ const Frame frames[] = {
          set(s, {"random.time"}, s.first_sample[pixel], s.first_sample[pixel + 1],
              static_cast<float>(pixel / static_cast<std::size_t>(s.data_window.width)) / 32);
      }},
+    {"pixels of many samples",
+     [](SampleBuffer& s) {  // those of 24 pixels each
+       for (const std::size_t first : {32U, 130U})
+         std::fill_n(s.first_sample.begin() + static_cast<std::ptrdiff_t>(first) + 1, 23, s.first_sample[first + 24]);
+     }},
     {"against the conventions",
      [](SampleBuffer& s) {
        set(s, {"random.lens.U"}, 10, 200, -0.5F);

@@ -1,0 +1,42 @@
+// The plain means of the pixels that the learned estimator filters: what the picture's energy is held against, and what
+// pixels of many samples are drawn to (docs/network.md, "Many samples").
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "frame/prepare.h"
+#include "run/picture.h"
+
+namespace rpf {
+
+/// How much of a pixel's own mean is in its result: 0 for up to 42 samples, towards 1 with more of them, and less the
+/// further result and mean are apart. `carried` values each, of which the first three, the radiance, count; `exposure`:
+/// the power of two that brings it to about 1.
+double own_share(std::uint32_t samples, const float* result, const double* mean, float exposure);
+
+/// Whether pixels have so many samples that their means are kept.
+bool has_own_share(std::uint32_t samples);
+
+class PlainMeans {
+ public:
+  /// `prepared` outlives this; its samples are needed while rows are added.
+  explicit PlainMeans(const PreparedFrame& prepared);
+
+  /// The pixels of the crop in these rows, whose samples are in memory. Rows come in their order, each once.
+  void add_rows(int first, int end);
+
+  /// Sum of their components R, G and B.
+  double energy() const { return energy_; }
+
+  /// Gives each of the crop's pixels, all of which were added, its share of its mean.
+  void draw_to_means(Pixels& pixels, float exposure) const;
+
+ private:
+  const PreparedFrame& prepared_;
+  Pixels means_;  ///< [pixel that needs it][carried]
+  double energy_ = 0;
+};
+
+}  // namespace rpf
