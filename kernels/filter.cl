@@ -22,6 +22,7 @@
 #include "neighborhood.cl"
 #include "transpose.cl"
 
+#include "bit_counts.cl"
 #include "statistics.cl"
 
 #include "coordinates.cl"

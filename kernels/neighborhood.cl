@@ -64,7 +64,7 @@ static void own_moments(const Frame* frame, const rpf_pass* pass, uint first, ui
 }
 
 static int any_lane(int16 condition) {
-#if defined(RPF_AVX512) && __has_builtin(__builtin_reduce_or)
+#if defined(RPF_AVX2) && __has_builtin(__builtin_reduce_or)
   return __builtin_reduce_or(condition) != 0;  // a test of the comparison's mask; Oclgrind does not know it
 #else
   const int8 a = condition.lo | condition.hi;
@@ -141,7 +141,7 @@ static uint draw_candidates(const Frame* frame, const rpf_pass* pass, uint pixel
   return count;
 }
 
-#ifdef RPF_AVX512  // Oclgrind does not know prefetches
+#ifdef RPF_AVX2  // Oclgrind does not know prefetches
 // Asks for the records of the candidates: they lie all over the box, and all of them are needed soon.
 static void fetch_candidates(const Frame* frame, const rpf_pass* pass, uint candidates, const Slot* slot) {
   __global const uint* sample = slot->candidates;
@@ -201,7 +201,7 @@ static uint gather(const Frame* frame, const rpf_pass* pass, uint pixel, uint fi
   *drawn = 0;
   for (uint begin = 0; begin < draws; begin += RPF_DRAWN_AT_ONCE) {
     const uint candidates = draw_candidates(frame, pass, pixel, begin, min(begin + RPF_DRAWN_AT_ONCE, draws), slot);
-#ifdef RPF_AVX512
+#ifdef RPF_AVX2
     fetch_candidates(frame, pass, candidates, slot);
 #endif
     if (RPF_PHASES > 1) count = append_accepted(frame, pass, moments, candidates, slot, count);

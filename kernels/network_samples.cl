@@ -30,7 +30,7 @@ static float16 column_of(__global const float* records, const rpf_chunk* c, int 
   return vload16(0, values);
 }
 
-#ifdef RPF_AVX512  // Oclgrind does not know prefetches
+#ifdef RPF_AVX2  // Oclgrind does not know prefetches
 // Asks for the records of RPF_LANES samples that are seen soon.
 static void fetch_records(__global const float* records, const rpf_chunk* c, uint first) {
   const size_t end = (size_t)min(first + RPF_LANES, c->samples) * (size_t)c->variables;
@@ -48,7 +48,7 @@ static uint end_of_row(const rpf_chunk* c, int row) { return min(first_of_row(ro
 static void see_sample_row(__global const float* records, __global const int* base_columns, __global float* seen,
                            const rpf_chunk* c, int row) {
   for (uint s = first_of_row(row); s < end_of_row(c, row); s += RPF_LANES) {
-#ifdef RPF_AVX512
+#ifdef RPF_AVX2
     fetch_records(records, c, s + RPF_SAMPLE_ROW * (uint)get_global_size(0));
 #endif
     const float16 miss = column_of(records, c, base_columns[3], s);

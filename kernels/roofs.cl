@@ -37,23 +37,37 @@ __kernel void roof_exp(__global float16* out, const uint rounds, const float ste
   out[get_global_id(0)] = total;
 }
 
-// The bits that a plane of `words` 64-bit words has in common with each of two others, as histograms are counted.
-__attribute__((noinline)) RPF_TARGET static ulong common_bits(__global const ulong* a, __global const ulong* b0,
-                                                              __global const ulong* b1, uint words) {
-  ulong count0 = 0, count1 = 0;
-  for (uint w = 0; w < words; ++w) {
-    const ulong bits = a[w];
-    count0 += popcount(bits & b0[w]);
-    count1 += popcount(bits & b1[w]);
-  }
-  return count0 + count1;
-}
+#ifdef RPF_AVX512
+#pragma clang attribute push(RPF_TARGET, apply_to = function)
+#endif
+#include "bit_counts.cl"
 
-__kernel void roof_popcount(__global ulong* out, __global const ulong* planes, const uint words, const uint rounds) {
+// The bits that a plane of `vectors` has in common with each of two others, as histograms are counted.
+__attribute__((noinline)) static ulong common_bits(__global const ulong8* a, __global const ulong8* b0,
+                                                   __global const ulong8* b1, size_t vectors) {
+  ulong8 count = 0;
+  for (size_t first = 0, end; first < vectors; first = end) {
+    end = end_of_words(first, vectors);
+    ulong8 sum0 = 0, sum1 = 0;
+    for (size_t w = first; w < end; ++w) {
+      sum0 += bits_of(a[w] & b0[w]);
+      sum1 += bits_of(a[w] & b1[w]);
+    }
+    count += total_of(sum0) + total_of(sum1);
+  }
+  return count.s0 + count.s1 + count.s2 + count.s3 + count.s4 + count.s5 + count.s6 + count.s7;
+}
+#ifdef RPF_AVX512
+#pragma clang attribute pop
+#endif
+
+// Of planes of `words` 64-bit words, a multiple of 8.
+__kernel void roof_popcount(__global ulong* out, __global const ulong8* planes, const uint words, const uint rounds) {
+  const uint vectors = words / 8;
   ulong count = 0;
   for (uint i = 0; i < rounds; ++i)
-    count += common_bits(planes + (i & 7u) * words, planes + (i >> 3 & 3u) * words,
-                         planes + (4 + (i >> 5 & 3u)) * words, words);
+    count += common_bits(planes + (i & 7u) * vectors, planes + (i >> 3 & 3u) * vectors,
+                         planes + (4 + (i >> 5 & 3u)) * vectors, vectors);
   out[get_global_id(0)] = count;
 }
 

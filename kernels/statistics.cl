@@ -164,15 +164,6 @@ static void fill_planes(const rpf_pass* pass, uint neighbors, uint words, const 
     }
 }
 
-// Of every word of 64 bits. OpenCL's popcount is compiled to one scalar after the other.
-static ulong8 count_bits(ulong8 words) {
-#ifdef RPF_AVX512
-  return as_ulong8(__builtin_ia32_vpopcntq_512(as_long8(words)));
-#else
-  return popcount(words);
-#endif
-}
-
 // The bins of a variable: how many neighbors are in each, and which ones have any.
 typedef struct {
   uint8 count[RPF_BIN_VECTORS];
@@ -195,13 +186,17 @@ static uint entropy_of(__global const int* entropy, const uint8* row) {
 }
 
 static void count_margin(__global const ulong8* planes, uint words, Margin* out) {
-  ulong8 sum[RPF_BIN_VECTORS];
   uint count[RPF_BIN_VECTORS * RPF_BINS_AT_ONCE];
 #pragma unroll
   for (int v = 0; v < RPF_BIN_VECTORS; ++v) {
-    sum[v] = 0;
-    for (uint w = 0; w < words; ++w) sum[v] += count_bits(planes[w * RPF_BIN_VECTORS + v]);
-    out->count[v] = convert_uint8(sum[v]);
+    ulong8 total = 0;
+    for (size_t w = 0, end; w < words; w = end) {
+      end = end_of_words(w, words);
+      ulong8 sum = 0;
+      for (size_t i = w; i < end; ++i) sum += bits_of(planes[i * RPF_BIN_VECTORS + v]);
+      total += total_of(sum);
+    }
+    out->count[v] = convert_uint8(total);
   }
   store_row(out->count, count);
   out->kinds = 0;
@@ -220,15 +215,22 @@ static void count_rows(__global const ulong8* planes_x, const uchar* bins, __glo
                        uint8 (*rows)[RPF_BIN_VECTORS]) {
   __global const ulong* x = (__global const ulong*)planes_x;
   __global const ulong *x0 = x + bins[0], *x1 = x + bins[1], *x2 = x + bins[2];
-  const size_t stride = RPF_BIN_VECTORS * RPF_BINS_AT_ONCE, end = words;
+  const size_t stride = RPF_BIN_VECTORS * RPF_BINS_AT_ONCE;
 #pragma unroll
   for (int v = 0; v < RPF_BIN_VECTORS; ++v) {
     ulong8 count0 = 0, count1 = 0, count2 = 0;
-    for (size_t w = 0; w < end; ++w) {
-      const ulong8 y = planes_y[w * RPF_BIN_VECTORS + v];
-      count0 += count_bits(y & x0[w * stride]);
-      count1 += count_bits(y & x1[w * stride]);
-      count2 += count_bits(y & x2[w * stride]);
+    for (size_t first = 0, end; first < words; first = end) {
+      end = end_of_words(first, words);
+      ulong8 sum0 = 0, sum1 = 0, sum2 = 0;
+      for (size_t w = first; w < end; ++w) {
+        const ulong8 y = planes_y[w * RPF_BIN_VECTORS + v];
+        sum0 += bits_of(y & x0[w * stride]);
+        sum1 += bits_of(y & x1[w * stride]);
+        sum2 += bits_of(y & x2[w * stride]);
+      }
+      count0 += total_of(sum0);
+      count1 += total_of(sum1);
+      count2 += total_of(sum2);
     }
     rows[0][v] = convert_uint8(count0);
     rows[1][v] = convert_uint8(count1);

@@ -65,7 +65,7 @@ Binaries::Binary binary_of(const cl::Program& program) {
 std::string build_options(const cl::Device& device, const std::string& definitions) {
   const bool asks = (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
   return "-cl-std=CL1.2 -w " + std::string(asks ? "-cl-fp32-correctly-rounded-divide-sqrt " : "") +
-         (has_new_avx512(device) ? "-DRPF_AVX512 " : "") + definitions;
+         (has_avx2(device) ? "-DRPF_AVX2 " : "") + (has_new_avx512(device) ? "-DRPF_AVX512 " : "") + definitions;
 }
 
 }  // namespace

@@ -16,9 +16,28 @@ bool compiles_for_avx512(const cl::Device& device) {
                      [&](const char* name) { return version.find(name) != std::string::npos; });
 }
 
+/// The same of those with AVX2 and no more. Debian's PoCL has "haswell" for all of them.
+bool compiles_for_avx2(const cl::Device& device) {
+  const auto version = device.getInfo<CL_DEVICE_VERSION>();
+  constexpr const char* names[] = {"haswell", "broadwell", "skylake", "alderlake", "x86-64-v3",
+                                   "znver1",  "znver2",    "znver3"};
+  return std::any_of(std::begin(names), std::end(names),
+                     [&](const char* name) { return version.find(name) != std::string::npos; });
+}
+
 }  // namespace
 
 bool is_pocl(const cl::Device& device) { return device.getInfo<CL_DEVICE_VERSION>().find("PoCL") != std::string::npos; }
+
+bool has_avx2(const cl::Device& device) {
+#ifdef __x86_64__
+  return is_pocl(device) && (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0 &&
+         (compiles_for_avx2(device) || compiles_for_avx512(device)) && __builtin_cpu_supports("avx2");
+#else
+  static_cast<void>(device);
+  return false;
+#endif
+}
 
 bool has_new_avx512(const cl::Device& device) {
 #ifdef __x86_64__
