@@ -254,13 +254,13 @@ FilterOptions parse_filter_options(const std::vector<std::string>& arguments, co
 
 double time_budget_of(const FilterOptions& options) {
   if (options.time_budget.empty()) return 0;
-  char* unit = nullptr;
-  const double number = std::strtod(options.time_budget.c_str(), &unit);
-  const std::map<std::string, double> seconds = {{"", 1}, {"s", 1}, {"ms", 1e-3}, {"m", 60}, {"h", 3600}};
-  const auto found = seconds.find(unit);
-  if (found == seconds.end() || !(number > 0) || number > 1e9)
-    refuse("--time-budget", options.time_budget, "a time above 0 is expected, such as 10s, 500ms or 2m");
-  return number * found->second;
+  static const std::map<std::string, double> seconds = {{"", 1}, {"s", 1}, {"ms", 1e-3}, {"m", 60}, {"h", 3600}};
+  static const std::regex pattern(R"((\d{1,9}|\d{0,9}\.\d{1,9})(s|ms|m|h|))");
+  std::smatch parts;
+  const bool is_time = std::regex_match(options.time_budget, parts, pattern);
+  const double number = is_time ? std::stod(parts[1]) : 0;
+  if (number <= 0) refuse("--time-budget", options.time_budget, "a time above 0 is expected, such as 10s, 500ms or 2m");
+  return number * seconds.at(parts[2]);
 }
 
 Window window_of(const std::string& option, const std::string& text) {

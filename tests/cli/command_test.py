@@ -153,7 +153,7 @@ class CommandTest(CommandCase):
         crop = ["--crop", "4x4+20+20"]
         self.expect(run(EXAMPLE, "-o", self.output, "--time-budget", "10h", *crop), 0, "preset high: predicted to take")
         self.expect(run(EXAMPLE, "-o", self.output, "--time-budget", "1ms", *crop), 0, "preset fast", "none is faster")
-        for wrong in ("0", "-3s", "10 parsecs", "soon"):
+        for wrong in ("0", "-3s", "10 parsecs", "soon", "0x10", "1e3s", "inf", ".s", "0.0h"):
             self.expect(run(EXAMPLE, "-o", self.output, "--time-budget=" + wrong), 2, "--time-budget", "10s")
         self.expect(run(EXAMPLE, "-o", self.output, "--time-budget", "3s", "--preset", "fast"), 2, "excludes")
 

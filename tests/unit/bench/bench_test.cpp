@@ -1,5 +1,7 @@
 // Measuring: statistics of rounds, results that survive a stop, plans, other binaries.
 #include <gtest/gtest.h>
+
+#include <filesystem>
 #include <sys/stat.h>
 
 #include "bench/child.h"
@@ -79,6 +81,7 @@ TEST(BenchResults, AreThereAgainAfterReopening) {
   const std::string path = folder.file("results.jsonl");
   {
     ResultsFile results(path, "cpu");
+    EXPECT_FALSE(std::filesystem::exists(path)) << "without a result";
     EXPECT_FALSE(results.has("a"));
     results.add("a", {{"cpu", 1.5}});
     EXPECT_TRUE(results.has("a"));
