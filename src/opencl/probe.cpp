@@ -112,7 +112,7 @@ void require_working_device(const std::string& wanted) {
 void require_compiled(const KernelBuild& build, const Check& check) {
   prepare_kernel_cache();
   const CacheLock alone(build.source, to_wait, check);
-  check_kernels(build.source);
+  if (build.is_kept_by_driver) check_kernels(build.source);
   const std::string name = name_of(fmt::format("build {:016x}", checksum(build.source)));
   const Verdicts verdicts(verdict_folder());
   const bool is_kept =

@@ -157,7 +157,7 @@ const cl::Program& Session::compile(const std::string& file, const std::string& 
   if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
   check_address_space_to_compile();
   const std::string source = source_of(file, definitions, more);
-  check_kernels(source);
+  if (is_pocl(device_)) check_kernels(source);
   const cl::Program program =
       is_pocl(device_) ? build(file, definitions, more) : build_kept(source, file, definitions, more);
   sources_[program()] = source;
@@ -216,7 +216,7 @@ void Session::enqueue(const cl::Kernel& kernel, std::size_t items, std::size_t g
   queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(group));
   if (!is_new) return;
   finish();
-  keep_compiled_kernels(sources_[program]);
+  if (is_pocl(device_)) keep_compiled_kernels(sources_[program]);
 }
 
 void Session::finish() {
