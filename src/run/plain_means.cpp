@@ -9,7 +9,7 @@ namespace rpf {
 namespace {
 
 /// Up to so many samples a pixel is what its network makes of it.
-constexpr std::uint32_t few_samples = 42;
+constexpr std::uint32_t few_samples = 45;
 
 /// For all pixels of the crop in some rows, row by row.
 template <typename Use>

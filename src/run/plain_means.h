@@ -11,7 +11,7 @@
 
 namespace rpf {
 
-/// How much of a pixel's own mean is in its result: 0 for up to 42 samples, towards 1 with more of them, and less the
+/// How much of a pixel's own mean is in its result: 0 for up to 45 samples, towards 1 with more of them, and less the
 /// further result and mean are apart. `carried` values each, of which the first three, the radiance, count; `exposure`:
 /// the power of two that brings it to about 1.
 double own_share(std::uint32_t samples, const float* result, const double* mean, float exposure);

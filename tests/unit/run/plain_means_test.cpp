@@ -11,20 +11,20 @@ constexpr double same[] = {1, 1, 1}, apart[] = {2, 1, 1};
 
 TEST(OwnShare, IsNothingOfFewSamplesAndAllOfEndlesslyMany) {
   EXPECT_EQ(own_share(1, of_one, same, 1), 0);
-  EXPECT_EQ(own_share(42, of_one, same, 1), 0);
-  EXPECT_DOUBLE_EQ(own_share(4 * 42, of_one, same, 1), 0.5);  // 1 - sqrt(1/4)
+  EXPECT_EQ(own_share(45, of_one, same, 1), 0);
+  EXPECT_DOUBLE_EQ(own_share(4 * 45, of_one, same, 1), 0.5);  // 1 - sqrt(1/4)
   EXPECT_GT(own_share(4000000000U, of_one, apart, 1), 0.999);
 }
 
 TEST(OwnShare, IsLessWhereResultAndMeanAreApart) {
   // d = 1 / (3 + 0.06), so that (40 d)^2 = 170.87; n / (n + 170.87) of 1/2
-  EXPECT_NEAR(own_share(168, of_one, apart, 1), 0.5 * 168 / (168 + 170.8744), 1e-6);
+  EXPECT_NEAR(own_share(180, of_one, apart, 1), 0.5 * 180 / (180 + 170.8744), 1e-6);
 }
 
 TEST(OwnShare, HasNoUnitOfRadiance) {
   const float result[] = {256, 256, 256};
   const double mean[] = {512, 256, 256};
-  EXPECT_EQ(own_share(168, result, mean, 1.0F / 256), own_share(168, of_one, apart, 1));
+  EXPECT_EQ(own_share(180, result, mean, 1.0F / 256), own_share(180, of_one, apart, 1));
 }
 
 TEST(PlainMeans, AreDrawnToWherePixelsHaveManySamplesInTheCrop) {
@@ -35,8 +35,8 @@ TEST(PlainMeans, AreDrawnToWherePixelsHaveManySamplesInTheCrop) {
   prepared.facts.carried = 4;
   prepared.facts.crop = {0, 0, 2, 1};
   frame.variables = 3;
-  frame.first_sample = {0, 2, 170, 340};  // 2, 168, 170 samples
-  for (int i = 0; i < 340; ++i) {
+  frame.first_sample = {0, 2, 182, 364};  // 2, 180, 182 samples
+  for (int i = 0; i < 364; ++i) {
     frame.records.insert(frame.records.end(), {i % 2 == 0 ? 0.0F : 2.0F, 1, 1});
     frame.others.push_back(i % 2 == 0 ? 3.0F : 5.0F);
   }
