@@ -33,8 +33,8 @@ static void load_cells(__global const float* cells, int stride, int x, int last,
   }
 }
 
-// What a pass weighs with. `cells`: of the last layer; `weights`, `bias`: of the head's outputs for this pass; `logits`:
-// planes of these outputs, where somebody wants them (its grid has rows then).
+// What a pass weighs with. `cells`: of the last layer; `weights`, `bias`: of the head's outputs for this pass;
+// `logits`: planes of these outputs, where somebody wants them (its grid has rows then).
 __kernel void embed(__global const float* cells, __global const float* guides, __global const float* weights,
                     __global const float* bias, __global float* out, __global float* logits, const rpf_area area,
                     const rpf_grid cell_grid, const rpf_grid guide_grid, const rpf_grid grid, const rpf_grid logit_grid,
@@ -53,8 +53,7 @@ __kernel void embed(__global const float* cells, __global const float* guides, _
       for (int k = 0; k < RPF_PASS_VALUES; ++k) {
         const float16 value = vload16(k, values);
         store_weight(value, k, embedding, guide + x, guide_plane, row + RPF_PLACES(x), plane);
-        if (logit_grid.rows > 0)
-          vstore16(value, 0, logits + row_at(&logit_grid, y) + k * logit_plane + RPF_PLACES(x));
+        if (logit_grid.rows > 0) vstore16(value, 0, logits + row_at(&logit_grid, y) + k * logit_plane + RPF_PLACES(x));
       }
     }
     for (int x = 0; begin == 0 && x < RPF_MARGIN; ++x) row[x] = RPF_NOT_THERE;

@@ -19,8 +19,8 @@ bool compiles_for_avx512(const cl::Device& device) {
 /// The same of those with AVX2 and no more. Debian's PoCL has "haswell" for all of them.
 bool compiles_for_avx2(const cl::Device& device) {
   const auto version = device.getInfo<CL_DEVICE_VERSION>();
-  constexpr const char* names[] = {"haswell", "broadwell", "skylake", "alderlake", "x86-64-v3",
-                                   "znver1",  "znver2",    "znver3"};
+  constexpr const char* names[] = {"haswell",   "broadwell", "skylake", "alderlake",
+                                   "x86-64-v3", "znver1",    "znver2",  "znver3"};
   return std::any_of(std::begin(names), std::end(names),
                      [&](const char* name) { return version.find(name) != std::string::npos; });
 }

@@ -1,8 +1,8 @@
 // Measuring: statistics of rounds, results that survive a stop, plans, other binaries.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <sys/stat.h>
+#include <filesystem>
 
 #include "bench/child.h"
 #include "bench/frame_run.h"
