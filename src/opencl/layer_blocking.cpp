@@ -10,8 +10,19 @@
 namespace rpf {
 namespace {
 
+/// Text, line by line.
+class Lines {
+ protected:
+  template <typename... Values>
+  void line(const std::string& format, const Values&... values) {
+    text_ += fmt::format(fmt::runtime(format), values...) + "\n";
+  }
+
+  std::string text_;
+};
+
 /// Writes one kernel.
-class LayerText {
+class LayerText : Lines {
  public:
   LayerText(const LayerShape& shape, const Blocking& blocking) : shape_(shape) {
     std::vector<Vector> all;
@@ -53,11 +64,6 @@ class LayerText {
     int first, lanes;
   };
   using Group = std::vector<Vector>;  ///< whose sums are made together
-
-  template <typename... Values>
-  void line(const std::string& format, const Values&... values) {
-    text_ += fmt::format(fmt::runtime(format), values...) + "\n";
-  }
 
   bool is_of_samples() const { return !shape_.samples.empty(); }
   std::string heading() const { return (is_of_samples() ? "static void " : "__kernel void ") + shape_.name(); }
@@ -143,11 +149,10 @@ class LayerText {
   const LayerShape& shape_;
   int cells_ = RPF_CELLS;
   std::vector<Group> groups_;
-  std::string text_;
 };
 
 /// The outputs of the head for a pass, of RPF_LANES cells: lanes are cells here, which passes read side by side.
-class HeadText {
+class HeadText : Lines {
  public:
   HeadText(int inputs, int outputs, const Blocking& blocking)
       : inputs_(inputs), outputs_(outputs), lanes_(blocking.lanes), most_(blocking.registers - 2) {}
@@ -164,11 +169,6 @@ class HeadText {
   }
 
  private:
-  template <typename... Values>
-  void line(const std::string& format, const Values&... values) {
-    text_ += fmt::format(fmt::runtime(format), values...) + "\n";
-  }
-
   void sums(int first, int end) {
     for (int o = first; o < end; ++o) line("    float{} a{} = bias[{}];", lanes_, o, o);
     line("    for (int j = 0; j < {}; ++j) {{", inputs_);
@@ -180,7 +180,6 @@ class HeadText {
   }
 
   int inputs_, outputs_, lanes_, most_;
-  std::string text_;
 };
 
 }  // namespace
