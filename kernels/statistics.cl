@@ -189,14 +189,9 @@ static void count_margin(__global const ulong8* planes, uint words, Margin* out)
   uint count[RPF_BIN_VECTORS * RPF_BINS_AT_ONCE];
 #pragma unroll
   for (int v = 0; v < RPF_BIN_VECTORS; ++v) {
-    ulong8 total = 0;
-    for (size_t w = 0, end; w < words; w = end) {
-      end = end_of_words(w, words);
-      ulong8 sum = 0;
-      for (size_t i = w; i < end; ++i) sum += bits_of(planes[i * RPF_BIN_VECTORS + v]);
-      total += total_of(sum);
-    }
-    out->count[v] = convert_uint8(total);
+    ulong8 bits = 0;
+    for (uint w = 0; w < words; ++w) bits += total_of(bits_of(planes[w * RPF_BIN_VECTORS + v]));
+    out->count[v] = convert_uint8(bits);
   }
   store_row(out->count, count);
   out->kinds = 0;
