@@ -42,7 +42,9 @@ class Estimated {
     backend_->load_estimate(prepared_.frame, plan_);
     const std::vector<EstimateStage> stages = backend_->trace_estimate(region);
     const float* color = stages.back().values.data() + place(window, x, y) * stages.back().channels;
-    const std::array<double, 3> mean = mean_color(prepared_.frame, number_);
+    const std::array<double, 3> exact = mean_color(prepared_.frame, number_);
+    std::array<float, 3> mean{};
+    std::transform(exact.begin(), exact.end(), mean.begin(), [](double c) { return static_cast<float>(c); });
     const double own = own_share(prepared_.frame.samples(number_), color, mean.data(), plan_.exposure);
     PixelShares shares = pixel_shares(plan_, stages, window, counts(window), x, y);
     if (own > 0) draw_to_mean(shares, own, place(window, x, y), mean);
@@ -53,8 +55,8 @@ class Estimated {
     std::copy(shares.factor.begin(), shares.factor.end(), result_.factor.begin());
     list_samples(shares);
     for (std::size_t c = 0; c < 3; ++c) {
-      result_.result.at(c) = radiance(static_cast<float>(color[c] + own * (mean.at(c) - color[c])));
-      result_.mean.at(c) = radiance(static_cast<float>(mean.at(c)));
+      result_.result.at(c) = radiance(drawn(color[c], mean.at(c), own));
+      result_.mean.at(c) = radiance(mean.at(c));
     }
     return std::move(result_);
   }
@@ -88,7 +90,7 @@ class Estimated {
   }
 
   /// Gives the pixel's own samples `own` more, for its mean; the factor becomes that of all.
-  void draw_to_mean(PixelShares& shares, double own, std::size_t pixel, const std::array<double, 3>& mean) const {
+  void draw_to_mean(PixelShares& shares, double own, std::size_t pixel, const std::array<float, 3>& mean) const {
     std::array<double, 3> of_passes{};
     for_samples(shares, [&](int /*x*/, int /*y*/, std::uint32_t sample, double share) {
       for (std::size_t c = 0; c < 3; ++c) of_passes.at(c) += share * prepared_.frame.record(sample)[c];
@@ -101,27 +103,13 @@ class Estimated {
     const std::vector<std::uint32_t> samples = counts(shares.window);
     const auto first = std::accumulate(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(pixel), 0U);
     const double all = shares.pixels[pixel] + own;
-    auto within = shares.within_pixels.begin() + first;
-    for (const double of_mean : shares_of_mean()) {
-      *within = (shares.pixels[pixel] * *within + own * of_mean) / all;
-      ++within;
+    const PixelWeights weights(prepared_.frame, number_);
+    for (std::uint32_t i = 0; i < samples[pixel]; ++i) {
+      const double of_mean = weights.of(prepared_.frame.first_sample[number_] + i) / weights.total();
+      double& within = shares.within_pixels[first + i];
+      within = (shares.pixels[pixel] * within + own * of_mean) / all;
     }
     shares.pixels[pixel] = all;
-  }
-
-  /// What each sample of the pixel that is explained counts in its mean.
-  std::vector<double> shares_of_mean() const {
-    const Frame& frame = prepared_.frame;
-    std::vector<double> shares(frame.samples(number_), 1.0);
-    for (std::uint32_t i = 0; i < shares.size() && !frame.weights.empty(); ++i)
-      shares[i] = frame.weight(frame.first_sample[number_] + i);
-    double total = std::accumulate(shares.begin(), shares.end(), 0.0);
-    if (total == 0) {
-      std::fill(shares.begin(), shares.end(), 1.0);
-      total = static_cast<double>(shares.size());
-    }
-    for (double& share : shares) share /= total;
-    return shares;
   }
 
   void list_samples(const PixelShares& shares) {

@@ -51,25 +51,22 @@ std::vector<float> resolve_rows(const Frame& frame, const std::vector<float>& co
   return image;
 }
 
+PixelWeights::PixelWeights(const Frame& frame, std::size_t pixel)
+    : frame_(frame), is_weighted_(!frame.weights.empty()) {
+  for (std::uint32_t i = frame.first_sample[pixel]; is_weighted_ && i < frame.first_sample[pixel + 1]; ++i)
+    total_ += frame.weight(i);
+  is_weighted_ = total_ > 0;
+  if (!is_weighted_) total_ = frame.samples(pixel);
+}
+
 void mean_of_pixel(const Frame& frame, std::size_t pixel, std::size_t carried, double* mean) {
-  const std::uint32_t first = frame.first_sample[pixel], end = frame.first_sample[pixel + 1];
-  const auto add = [&](std::uint32_t i, double weight) {
-    const float *color = frame.record(i), *other = frame.others.data() + (i - frame.first_record) * (carried - 3);
-    for (std::size_t c = 0; c < carried; ++c) mean[c] += weight * (c < 3 ? color[c] : other[c - 3]);
-  };
-  double total = 0;
+  const PixelWeights weights(frame, pixel);
   std::fill_n(mean, carried, 0.0);
-  for (std::uint32_t i = first; i < end; ++i) {
-    const double weight = frame.weights.empty() ? 1 : frame.weight(i);
-    add(i, weight);
-    total += weight;
+  for (std::uint32_t i = frame.first_sample[pixel]; i < frame.first_sample[pixel + 1]; ++i) {
+    const float *color = frame.record(i), *other = frame.others.data() + (i - frame.first_record) * (carried - 3);
+    for (std::size_t c = 0; c < carried; ++c) mean[c] += weights.of(i) * (c < 3 ? color[c] : other[c - 3]);
   }
-  if (total <= 0) {  // as resolve() does where no sample has a weight
-    std::fill_n(mean, carried, 0.0);
-    for (std::uint32_t i = first; i < end; ++i) add(i, 1);
-    total = end > first ? end - first : 1;
-  }
-  for (std::size_t c = 0; c < carried; ++c) mean[c] /= total;
+  for (std::size_t c = 0; weights.total() > 0 && c < carried; ++c) mean[c] /= weights.total();
 }
 
 std::array<double, 3> mean_color(const Frame& frame, std::size_t pixel) {

@@ -17,6 +17,19 @@ std::vector<float> resolve(const Frame& frame, const std::vector<float>& colors,
 std::vector<float> resolve_rows(const Frame& frame, const std::vector<float>& colors, std::size_t carried,
                                 int first_row, int end_row);
 
+/// What each sample counts in the mean of its pixel: its weight; 1 where the frame has none, or none in this pixel.
+class PixelWeights {
+ public:
+  PixelWeights(const Frame& frame, std::size_t pixel);
+  double of(std::size_t sample) const { return is_weighted_ ? frame_.weight(sample) : 1; }  ///< a sample of the frame
+  double total() const { return total_; }
+
+ private:
+  const Frame& frame_;
+  bool is_weighted_;
+  double total_ = 0;
+};
+
 /// The mean color of a pixel's samples, from the records, in double: for what is told, not for what is filtered.
 std::array<double, 3> mean_color(const Frame& frame, std::size_t pixel);
 

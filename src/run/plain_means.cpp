@@ -24,15 +24,19 @@ void for_pixels(const FrameFacts& facts, int first_row, int end_row, Use use) {
 
 bool has_own_share(std::uint32_t samples) { return samples > few_samples; }
 
-double own_share(std::uint32_t samples, const float* result, const double* mean, float exposure) {
+double own_share(std::uint32_t samples, const float* result, const float* mean, float exposure) {
   if (!has_own_share(samples)) return 0;
   double apart = 0, brightness = 0.06 / exposure;
   for (std::size_t c = 0; c < 3; ++c) {
-    apart += std::fabs(mean[c] - result[c]);
+    apart += std::fabs(static_cast<double>(mean[c]) - result[c]);
     brightness += std::fabs(static_cast<double>(result[c]));
   }
   const double distance = 40 * apart / brightness, n = samples;
   return (1 - std::sqrt(few_samples / n)) * n / (n + distance * distance);
+}
+
+float drawn(float result, float mean, double share) {
+  return static_cast<float>(result + share * (static_cast<double>(mean) - result));
 }
 
 PlainMeans::PlainMeans(const PreparedFrame& prepared) : prepared_(prepared) {}
@@ -49,16 +53,14 @@ void PlainMeans::add_rows(int first, int end) {
 
 void PlainMeans::draw_to_means(Pixels& pixels, float exposure) const {
   const std::size_t carried = prepared_.facts.carried;
-  const float* kept = means_.data();
-  std::vector<double> mean(carried);
+  const float* mean = means_.data();
   for_pixels(prepared_.facts, 0, prepared_.facts.height, [&](std::size_t pixel) {
     const std::uint32_t samples = prepared_.frame.samples(pixel);
     if (!has_own_share(samples)) return;
-    std::copy_n(kept, carried, mean.begin());
-    kept += carried;
     float* result = pixels.data() + pixel * carried;
-    const double share = own_share(samples, result, mean.data(), exposure);
-    for (std::size_t c = 0; c < carried; ++c) result[c] = static_cast<float>(result[c] + share * (mean[c] - result[c]));
+    const double share = own_share(samples, result, mean, exposure);
+    for (std::size_t c = 0; c < carried; ++c) result[c] = drawn(result[c], mean[c], share);
+    mean += carried;
   });
 }
 

@@ -14,7 +14,10 @@ namespace rpf {
 /// How much of a pixel's own mean is in its result: 0 for up to 45 samples, towards 1 with more of them, and less the
 /// further result and mean are apart. `carried` values each, of which the first three, the radiance, count; `exposure`:
 /// the power of two that brings it to about 1.
-double own_share(std::uint32_t samples, const float* result, const double* mean, float exposure);
+double own_share(std::uint32_t samples, const float* result, const float* mean, float exposure);
+
+/// A value with that share of its mean.
+float drawn(float result, float mean, double share);
 
 /// Whether pixels have so many samples that their means are kept.
 bool has_own_share(std::uint32_t samples);

@@ -290,7 +290,7 @@ MUTANTS = [
            "rows: what the first pass reads is not there"),
     Mutant("own_share_apart", "src/run/plain_means.cpp", "n / (n + distance * distance)", "n / (n + distance)",
            "OwnShare.IsLessWhereResultAndMeanAreApart", "fireflies come back with the mean"),
-    Mutant("means_of_few", "src/run/plain_means.cpp", "if (!has_own_share(samples)) return;\n    std::copy_n", "std::copy_n",
+    Mutant("means_of_few", "src/run/plain_means.cpp", "if (!has_own_share(samples)) return;\n    float*", "float*",
            "PlainMeans.AreDrawnTo*", "pixels take the means of others"),
     Mutant("pass_ahead", "src/run/pass_steps.cpp", "std::min(ready - reach_of(plan.passes[pass]), region.end)", "std::min(ready, region.end)",
            "PassSteps.FilterEveryRowOnceBehindWhatItReads", "streamed passes: rows are filtered before what they read is"),

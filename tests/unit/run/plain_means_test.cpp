@@ -7,7 +7,7 @@ namespace rpf {
 namespace {
 
 constexpr float of_one[] = {1, 1, 1};
-constexpr double same[] = {1, 1, 1}, apart[] = {2, 1, 1};
+constexpr float same[] = {1, 1, 1}, apart[] = {2, 1, 1};
 
 TEST(OwnShare, IsNothingOfFewSamplesAndAllOfEndlesslyMany) {
   EXPECT_EQ(own_share(1, of_one, same, 1), 0);
@@ -23,7 +23,7 @@ TEST(OwnShare, IsLessWhereResultAndMeanAreApart) {
 
 TEST(OwnShare, HasNoUnitOfRadiance) {
   const float result[] = {256, 256, 256};
-  const double mean[] = {512, 256, 256};
+  const float mean[] = {512, 256, 256};
   EXPECT_EQ(own_share(180, result, mean, 1.0F / 256), own_share(180, of_one, apart, 1));
 }
 
