@@ -30,22 +30,15 @@
 
 static size_t row_at(const rpf_grid* grid, int y) { return (size_t)(y % grid->rows) * (size_t)grid->pitch; }
 
-static int parts_of_row(const rpf_area* area) { return (area->width + area->part - 1) / area->part; }
-
 // A work-item takes the parts first_part(), first_part() + get_global_size(0) ... before end_part().
 static int first_part(void) { return (int)get_global_id(0); }
 // No row: no parts either, whatever the rest of the area is; a rehearsal (src/opencl) hands over zeros.
 static int end_part(const rpf_area* area) {
-  return area->first < area->end ? (area->end - area->first) * parts_of_row(area) : 0;
+  return area->first < area->end ? (area->end - area->first) * rpf_parts_of_row(area) : 0;
 }
-static int row_of_part(const rpf_area* area, int i) { return area->first + i / parts_of_row(area); }
-static int begin_of_part(const rpf_area* area, int i) { return i % parts_of_row(area) * area->part; }
+static int row_of_part(const rpf_area* area, int i) { return area->first + i / rpf_parts_of_row(area); }
+static int begin_of_part(const rpf_area* area, int i) { return i % rpf_parts_of_row(area) * area->part; }
 static int end_of_part(const rpf_area* area, int i) { return min(begin_of_part(area, i) + area->part, area->width); }
-
-// Where the record of sample x of a row of samples begins; of the last one for those behind it.
-static size_t record_at(const rpf_grid* records, int y, int x) {
-  return (size_t)min(y * RPF_SAMPLE_ROW + x, records->rows - 1) * (size_t)records->pitch;
-}
 
 // Repeats the edge beside a row of cells, where begin .. end - 1 touches it.
 static void close_row(__global float* line, int stride, int begin, int end, int width) {
@@ -53,9 +46,24 @@ static void close_row(__global float* line, int stride, int begin, int end, int 
   for (int k = 0; end == width && k < stride; ++k) line[width * stride + k] = line[(width - 1) * stride + k];
 }
 
+// Also of no planes, as a rehearsal (src/opencl) has them.
+static int plane_of(const rpf_grid* grid, int planes) { return grid->pitch / max(planes, 1); }
+
+// Beside the planes of a row stands what adds nothing to a sum, whatever its weight: fma(0, -0, s) is s.
+static void close_planes(__global float* row, int plane, int planes, int begin, int end, int width, float beside) {
+  for (int k = 0; k < planes; ++k) {
+    for (int x = 0; begin == 0 && x < RPF_MARGIN; ++x) row[k * plane + x] = beside;
+    for (int x = RPF_MARGIN + width; end == width && x < plane; ++x) row[k * plane + x] = beside;
+  }
+}
+
 #include "transpose.cl"
 
 #include "network_samples.cl"
+
+#include "network_pixels.cl"
+
+#include "network_sums.cl"
 
 #include "network_passes.cl"
 

@@ -22,8 +22,8 @@ namespace rpf::kernel {
 // Pixels of a pass that a pixel is weighed with, those further on in its row and in the rows below: 2 and 10.
 #define RPF_PASS_PAIRS 12
 
-// Samples lie in rows of so many, without a border.
-#define RPF_SAMPLE_ROW 64
+// Samples of a part of a row of pixels go through the network so many at once, a multiple of RPF_LANES.
+#define RPF_SAMPLES_AT_ONCE 64
 
 // What is computed of a sample: [sample][RPF_SEEN].
 #define RPF_SEEN 16
@@ -45,29 +45,35 @@ typedef struct {
   int part;  // cells of a part, a multiple of 16
 } rpf_area;
 
-// A layer. Of records `own` says how many samples there are, and the floats of a record.
+RPF_INLINE int rpf_parts_of_row(const rpf_area* area) { return (area->width + area->part - 1) / area->part; }
+
+// A layer.
 typedef struct {
   rpf_area area;
   rpf_grid coarse, own, out;
-  int inputs;  // columns of records
 } rpf_layer;
 
-// Some pixels of a window of the frame, row by row, whose samples lie side by side in the frame: records, others,
-// weights and what is made of samples begin with the first of them.
+// Samples of some rows of a window: records, others and weights begin with the first of them, first_sample with the
+// first pixel of these rows in the window.
 typedef struct {
-  int first, end;     // pixels of the window
-  int x, width;       // the window's columns in the frame
-  int frame_width;    //
-  int first_row;      // of the window: first_sample begins with its first pixel in the frame
-  uint first_sample;  // in the frame
-  uint samples;
-  int variables;    // floats of a record
-  int has_albedo;   //
-  int has_weights;  // of the file
+  rpf_area area;             // pixels of the window
+  int first_part, end_part;  // of the area: those of this launch
+  int frame_width;           // entries of first_sample from one row to the next
+  uint first_sample;         // in the frame
+  uint samples;              //
+  int variables;             // floats of a record
+  int inputs;                // columns of records that the network sees
+  int has_albedo;            //
+  int has_weights;           // of the file
   float exposure, weight_scale;
-  uint features, stride;  // of a sample: values of sample2, floats from one sample to the next
-  int carried;            //
-} rpf_chunk;
+  int carried;
+  int is_traced;  // whether somebody wants what is made of samples on the way
+} rpf_samples;
+
+// Columns x .. x + width - 1 of a window, rows from y on: what is wanted of it.
+typedef struct {
+  int x, y, width;
+} rpf_region;
 
 // A pass.
 typedef struct {

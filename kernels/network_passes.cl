@@ -174,16 +174,18 @@ __kernel void filter_pass(__global const float* weights, __global const float* i
   }
 }
 
-// `sums` and `albedo` after their passes, `heads`: the first outputs of the head.
+// The picture: pixels [row][column][carried] of a region. `sums` and `albedo` after their passes, `heads`: the first
+// outputs of the head.
 __kernel void finish(__global const float* sums, __global const float* albedo, __global const float* heads,
                      __global float* out, const rpf_area area, const rpf_grid sum_grid, const rpf_grid albedo_grid,
-                     const rpf_grid head_grid, const rpf_grid grid, const int head_stride, const int carried,
+                     const rpf_grid head_grid, const rpf_region region, const int head_stride, const int carried,
                      const int has_albedo) {
-  const int plane = plane_of(&sum_grid, (int)rpf_sums((uint)carried)), out_plane = plane_of(&grid, carried);
+  const int plane = plane_of(&sum_grid, (int)rpf_sums((uint)carried));
   const int albedo_plane = plane_of(&albedo_grid, RPF_ALBEDO_SUMS);
   for (int i = first_part(); i < end_part(&area); i += (int)get_global_size(0)) {
     const int y = row_of_part(&area, i), begin = begin_of_part(&area, i), end = end_of_part(&area, i);
     __global const float* blends = heads + row_at(&head_grid, y) + RPF_BORDER * head_stride + RPF_HEAD_BLEND;
+    __global float* row = out + (size_t)(y - region.y) * (size_t)region.width * (size_t)carried;
     for (int x = begin; x < end; x += RPF_LANES) {
       __global const float* sum = sums + row_at(&sum_grid, y) + RPF_PLACES(x);
       __global const float* base = albedo + row_at(&albedo_grid, y) + RPF_PLACES(x);
@@ -191,6 +193,7 @@ __kernel void finish(__global const float* sums, __global const float* albedo, _
       for (int l = 0; l < RPF_LANES; ++l) values[l] = blends[min(x + l, area.width - 1) * head_stride];
       const float16 blend = rpf_blend(vload16(0, values)), weight = vload16(0, sum + RPF_SUM_WEIGHT * plane),
                     covered = vload16(0, base + 3 * albedo_plane);
+      const int first = max(x, region.x), last = min(min(x + RPF_LANES, end), region.x + region.width) - 1;
       for (int k = 0; k < carried; ++k) {
         const int from = k < 3 ? RPF_SUM_RADIANCE + k : RPF_SUM_OTHERS + k - 3;
         const float16 carried_sum = vload16(0, sum + from * plane);
@@ -198,7 +201,8 @@ __kernel void finish(__global const float* sums, __global const float* albedo, _
         if (has_albedo && k < 3)
           value = rpf_blended(value, carried_sum, vload16(0, sum + (RPF_SUM_BASE + k) * plane),
                               vload16(0, base + k * albedo_plane), covered, blend);
-        vstore16(value, 0, out + row_at(&grid, y) + k * out_plane + RPF_PLACES(x));
+        vstore16(value, 0, values);
+        for (int p = first; p <= last; ++p) row[(p - region.x) * carried + k] = values[p - x];
       }
     }
   }

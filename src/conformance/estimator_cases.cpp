@@ -43,7 +43,7 @@ void add_frames(EstimatorCases& list) {
     c.quick = true;
     list.add(fmt::format("scene/{}", scene), c);
   }
-  for (const int samples : {1, 2, 3, 8, 33, CaseList::varying})
+  for (const int samples : {1, 2, 3, 8, 33, 150, CaseList::varying})
     list.add("samples/" + count_name(samples), EstimatorCases::basic("dof", samples));
   constexpr int sizes[][2] = {{1, 1}, {1, 17}, {17, 1}, {2, 2}, {3, 400}, {40, 3}, {64, 48}, {130, 70}};
   for (const auto& size : sizes)

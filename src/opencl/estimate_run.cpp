@@ -14,7 +14,7 @@ using Kind = EstimateStep::Kind;
 constexpr int part_cells = 64;
 
 /// Multiply-adds that the device is asked for before it is waited for: a fraction of a second, and of the whole.
-constexpr double work_at_once = 2e9, least_waits = 32;
+constexpr double work_at_once = 2e9, least_waits = 16;
 
 /// Behind a grid there may be read, not more than a vector, what has no meaning.
 constexpr std::size_t read_behind = RPF_LANES * sizeof(float);
@@ -44,12 +44,30 @@ EstimateRun::EstimateRun(Session& session, const NetworkProgram& program, const 
       embed_(program.kernel("embed")),
       weigh_pixels_(program.kernel("weigh_pixels")),
       filter_pass_(program.kernel("filter_pass")),
-      finish_(program.kernel("finish")) {
+      finish_(program.kernel("finish")),
+      first_(first),
+      end_(end) {
+  allocate_grids();
+}
+
+void EstimateRun::allocate_grids() {
+  constexpr std::size_t page = 4096;  // what drivers take for their own without copying
+  const auto bytes = [&](std::size_t i) {
+    const auto floats = static_cast<std::size_t>(steps_.pipeline.rows(static_cast<int>(i))) *
+                        static_cast<std::size_t>(steps_.grids[i].pitch());
+    return (floats * sizeof(float) + read_behind + page - 1) / page * page;
+  };
+  const bool shares = session_.shares_memory();
+  std::size_t all = 0;
+  for (std::size_t i = 0; shares && i < steps_.grids.size(); ++i) all += bytes(i);
+  if (shares) memory_ = LargePages(all);
+  char* place = memory_.data();
   for (std::size_t i = 0; i < steps_.grids.size(); ++i) {
     const EstimateGrid& g = steps_.grids[i];
-    const int rows = steps_.pipeline.rows(static_cast<int>(i));
-    const std::size_t floats = static_cast<std::size_t>(rows) * static_cast<std::size_t>(g.pitch());
-    grids_.push_back({session_.buffer(floats * sizeof(float) + read_behind), {rows, g.pitch()}, g.stored});
+    grids_.push_back({shares ? session_.host_buffer(place, bytes(i), CL_MEM_READ_WRITE) : session_.buffer(bytes(i)),
+                      {steps_.pipeline.rows(static_cast<int>(i)), g.pitch()},
+                      g.stored});
+    if (shares) place += bytes(i);
   }
 }
 
@@ -110,18 +128,17 @@ void EstimateRun::run_pass(const EstimateStep& step, int first, int end) {
 }
 
 void EstimateRun::run_finish(const EstimateStep& step, int first, int end) {
-  const DeviceGrid &sums = grid(step.in[0]), &albedo = grid(step.in[1]), &heads = grid(step.in[2]),
-                   &out = grid(step.out.front());
-  launch(finish_, sums.buffer, albedo.buffer, heads.buffer, out.buffer, area(step, first, end), sums.rows, albedo.rows,
-         heads.rows, out.rows, heads.stored, static_cast<int>(job_.plan.carried), job_.plan.has_albedo ? 1 : 0);
+  const DeviceGrid &sums = grid(step.in[0]), &albedo = grid(step.in[1]), &heads = grid(step.in[2]);
+  launch(finish_, sums.buffer, albedo.buffer, heads.buffer, result_, area(step, first, end), sums.rows, albedo.rows,
+         heads.rows, region_, heads.stored, static_cast<int>(job_.plan.carried), job_.plan.has_albedo ? 1 : 0);
 }
 
 void EstimateRun::run_step(const EstimateStep& step, int first, int end, const Part& part) {
   switch (step.kind) {
     case Kind::see:
-      return samples_.see(first, end, grid(step.out[0]), grid(step.out[1]), grid(step.out[2]), part);
+      return samples_.see(area(step, first, end), grid(step.out[0]), grid(step.out[1]), grid(step.out[2]), part);
     case Kind::sum:
-      return samples_.sum(first, end, grid(step.in[0]), grid(step.out[0]), part);
+      return samples_.sum(area(step, first, end), grid(step.in[0]), grid(step.out[0]), part);
     case Kind::layer:
       run_layer(step, program_.layer(static_cast<std::size_t>(step.number)), first, end);
       break;
@@ -148,12 +165,32 @@ void EstimateRun::run_step(const EstimateStep& step, int first, int end, const P
 }
 
 std::vector<float> EstimateRun::run(int x, int width, const EstimateProgress& progress) {
-  std::vector<float> pixels;
+  std::vector<float> pixels(static_cast<std::size_t>(end_ - first_) * static_cast<std::size_t>(width) *
+                            job_.plan.carried);
+  const std::size_t bytes = pixels.size() * sizeof(float);
+  region_ = {x, first_, width};
+  result_ = session_.host_buffer(pixels.data(), bytes, CL_MEM_WRITE_ONLY);
+  try {
+    make(progress);
+  } catch (...) {
+    session_.finish();  // of what was asked for, all that it reads and writes must last
+    throw;
+  }
+  session_.read_back(result_, 0, bytes, pixels.data());
+  result_ = {};
+  return pixels;
+}
+
+void EstimateRun::make(const EstimateProgress& progress) {
   const double all = steps_.work(), at_once = std::min(work_at_once * static_cast<double>(items_), all / least_waits);
-  double asked_for = 0;
+  double asked_for = 0, marked = 0;  // since the latest mark, and before it
+  cl::Event latest;
+  // Of two marks the first is waited for, so that the device has work all the while.
   const auto wait = [&] {
-    session_.finish();
-    progress(std::exchange(asked_for, 0) / all);
+    const cl::Event mark = session_.mark();
+    if (latest() != nullptr) latest.wait();
+    latest = mark;
+    progress(std::exchange(marked, std::exchange(asked_for, 0)) / all);
   };
   steps_.pipeline.run([&](int number, int first, int end) {
     const EstimateStep& step = steps_.steps[static_cast<std::size_t>(number)];
@@ -162,23 +199,9 @@ std::vector<float> EstimateRun::run(int x, int width, const EstimateProgress& pr
       asked_for += work * share;
       if (asked_for > at_once) wait();
     });
-    if (step.kind == Kind::finish) collect(first, end, x, width, pixels);
   });
-  wait();
-  return pixels;
-}
-
-void EstimateRun::collect(int first, int end, int x, int width, std::vector<float>& pixels) {
-  const DeviceGrid& result = grid(steps_.result);
-  const auto pitch = static_cast<std::size_t>(result.rows.pitch),
-             plane = pitch / static_cast<std::size_t>(result.stored);
-  for (int y = first; y < end; ++y) {
-    const std::vector<float> row =
-        session_.read<float>(result.buffer, static_cast<std::size_t>(y % result.rows.rows) * pitch, pitch);
-    for (int i = x; i < x + width; ++i)
-      for (std::size_t k = 0; k < static_cast<std::size_t>(result.stored); ++k)
-        pixels.push_back(row[k * plane + RPF_MARGIN + static_cast<std::size_t>(i)]);
-  }
+  session_.finish();
+  progress((marked + asked_for) / all);
 }
 
 std::vector<float> EstimateRun::values_of(int number) {
@@ -214,7 +237,7 @@ EstimateStage EstimateRun::head_stage() {
 }
 
 std::vector<EstimateStage> EstimateRun::trace() {
-  run(0, job_.window.width, [](double /*part*/) {});
+  const std::vector<float> pixels = run(0, job_.window.width, [](double /*part*/) {});
   const auto features = static_cast<std::size_t>(job_.plan.network->sample_features);
   std::vector<EstimateStage> stages = {{"inputs", RPF_INPUTS, sample_trace_.inputs},
                                        {"sample1", features, sample_trace_.sample1},
@@ -224,10 +247,11 @@ std::vector<EstimateStage> EstimateRun::trace() {
     const std::string& name = steps_.grids[i].name;
     if (number == steps_.heads) stages.push_back(head_stage());
     if (name == "sums") stages.push_back({"weights", 1, sample_trace_.weights});
-    if (name.empty() || name == "guides" || name == "albedo") continue;
+    if (name.empty() || name == "guides" || name == "albedo" || number == steps_.result) continue;
     stages.push_back(stage(number, name));
     if (name == "pass3") stages.push_back(stage(steps_.albedo, "albedo"));
   }
+  stages.push_back({"result", job_.plan.carried, pixels});
   return stages;
 }
 

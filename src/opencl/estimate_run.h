@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "memory/pages.h"
 #include "opencl/estimate_steps.h"
 #include "opencl/sample_stage.h"
 
@@ -16,7 +17,7 @@ class EstimateRun {
   EstimateRun(Session& session, const NetworkProgram& program, const EstimateJob& job, int first, int end,
               std::size_t items, bool keep_all);
 
-  /// The result, columns x .. x + width - 1 of the window: [pixel][carried].
+  /// The result, columns x .. x + width - 1 of the window's rows: [pixel][carried].
   std::vector<float> run(int x, int width, const EstimateProgress& progress);
   /// All stages (estimate_plan.h).
   std::vector<EstimateStage> trace();
@@ -24,6 +25,7 @@ class EstimateRun {
  private:
   using Part = std::function<void(double share)>;
 
+  void allocate_grids();
   void run_step(const EstimateStep& step, int first, int end, const Part& part);
   void run_layer(const EstimateStep& step, const DeviceLayer& layer, int first, int end);
   void run_halve(const EstimateStep& step, int first, int end);
@@ -31,11 +33,12 @@ class EstimateRun {
   void run_weigh(const EstimateStep& step, int first, int end);
   void run_pass(const EstimateStep& step, int first, int end);
   void run_finish(const EstimateStep& step, int first, int end);
+  /// Makes the picture in result_.
+  void make(const EstimateProgress& progress);
   template <typename... Values>
   void launch(cl::Kernel& kernel, const Values&... values);
   kernel::rpf_area area(const EstimateStep& step, int first, int end) const;
   const DeviceGrid& grid(int number) const { return grids_[static_cast<std::size_t>(number)]; }
-  void collect(int first, int end, int x, int width, std::vector<float>& pixels);
   std::vector<float> values_of(int grid);
   EstimateStage stage(int grid, const std::string& name);
   EstimateStage head_stage();
@@ -46,9 +49,13 @@ class EstimateRun {
   std::size_t items_;
   SampleTrace sample_trace_;
   EstimateSteps steps_;
+  LargePages memory_;  ///< of the grids, where the device's memory is the host's
   std::vector<DeviceGrid> grids_;
   SampleStage samples_;
   cl::Kernel halve_, embed_, weigh_pixels_, filter_pass_, finish_;
+  int first_, end_;
+  cl::Buffer result_;  ///< [pixel][carried], the host's memory while run() makes it
+  kernel::rpf_region region_{};
 };
 
 }  // namespace rpf

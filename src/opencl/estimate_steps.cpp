@@ -45,6 +45,7 @@ class Builder {
     const int filtered = passes(last, sums, 0, RPF_COLOR_PASSES);
     const int albedo = plan_.has_albedo ? passes(last, out_.albedo, RPF_COLOR_PASSES, RPF_ALBEDO_PASSES) : out_.albedo;
     EstimateGrid result = planes("result", static_cast<int>(plan_.carried));
+    result.stored = 0;  // the host has it
     std::vector<int> read = {filtered, albedo, out_.heads};
     for (int pass = RPF_COLOR_PASSES; whole_head_ && !plan_.has_albedo && pass < RPF_NETWORK_PASSES; ++pass)
       read.push_back(embed(last, pass));

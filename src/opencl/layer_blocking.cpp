@@ -39,22 +39,13 @@ class LayerText : Lines {
   }
 
   std::string text() {
-    line("{}(__global const float* coarse, __global const float* own, __global const float* weights,", heading());
-    line("    __global const float* bias, __global float* out, {}const rpf_layer l{}) {{",
-         shape_.records ? "__global const int* columns, " : "", is_of_samples() ? ", int i" : "");
-    line(is_of_samples() ? "  {{"
-                         : "  for (int i = first_part(); i < end_part(&l.area); i += (int)get_global_size(0)) {{");
-    line(
-        "    const int y = row_of_part(&l.area, i), begin = begin_of_part(&l.area, i), end = end_of_part(&l.area, i);");
-    line("    __global float* line = out + row_at(&l.out, y) + {};", border() * shape_.out_stride);
+    open();
     for (const Group& group : groups_) {
       line("    for (int x = begin; x < end; x += {}) {{", cells_);
       sums(group);
       line("    }}");
     }
-    if (!is_of_samples()) line("    close_row(line, {}, begin, end, l.area.width);", shape_.out_stride);
-    line("  }}");
-    line("}}");
+    close();
     return text_;
   }
 
@@ -66,8 +57,36 @@ class LayerText : Lines {
   using Group = std::vector<Vector>;  ///< whose sums are made together
 
   bool is_of_samples() const { return !shape_.samples.empty(); }
-  std::string heading() const { return (is_of_samples() ? "static void " : "__kernel void ") + shape_.name(); }
+  /// Values of samples are the work-item's own.
+  const char* space() const { return is_of_samples() ? "" : "__global "; }
   int border() const { return is_of_samples() ? 0 : RPF_BORDER; }
+
+  void open() {
+    if (is_of_samples()) return open_function();
+    line("__kernel void {}(__global const float* coarse, __global const float* own, __global const float* weights,",
+         shape_.name());
+    line("    __global const float* bias, __global float* out, const rpf_layer l) {{");
+    line("  for (int i = first_part(); i < end_part(&l.area); i += (int)get_global_size(0)) {{");
+    line(
+        "    const int y = row_of_part(&l.area, i), begin = begin_of_part(&l.area, i), end = end_of_part(&l.area, i);");
+    line("    __global float* line = out + row_at(&l.out, y) + {};", border() * shape_.out_stride);
+  }
+
+  void open_function() {
+    line("static void {}(const float* {}, ", shape_.name(), shape_.records ? "coarse" : "own");
+    if (shape_.records)
+      line("    __global const float* records, __global const int* columns, int inputs, int variables,");
+    line("    __global const float* weights, __global const float* bias, float* line, int end) {{");
+    line("    const int begin = 0;");
+  }
+
+  void close() {
+    if (!is_of_samples()) {
+      line("    close_row(line, {}, begin, end, l.area.width);", shape_.out_stride);
+      line("  }}");
+    }
+    line("}}");
+  }
 
   template <typename Body>
   void for_all(const Group& group, Body body) {
@@ -84,7 +103,8 @@ class LayerText : Lines {
     if (shape_.records) {
       add_record_inputs(group);
     } else if (shape_.taps == 1) {
-      line("      __global const float* s = own + row_at(&l.own, y) + (x + {}) * {};", border(), shape_.own_stride);
+      line("      {}const float* s = own + {}(x + {}) * {};", space(), is_of_samples() ? "" : "row_at(&l.own, y) + ",
+           border(), shape_.own_stride);
       add_inputs(group, "s", std::to_string(shape_.own), shape_.own_stride, [](int c) { return c; });
     } else {
       line("      for (int ky = -1; ky <= 1; ++ky) {{");
@@ -119,11 +139,11 @@ class LayerText : Lines {
 
   /// Of samples: what is computed of them, then columns of their records.
   void add_record_inputs(const Group& group) {
-    line("      __global const float* t = coarse + row_at(&l.coarse, y) + x * {};", shape_.coarse_stride);
+    line("      const float* t = coarse + x * {};", shape_.coarse_stride);
     add_inputs(group, "t", std::to_string(shape_.coarse), shape_.coarse_stride, [](int c) { return c; });
     for (int c = 0; c < cells_; ++c)
-      line("      __global const float* r{} = own + record_at(&l.own, y, x + {});", c, c);
-    add_inputs_at(group, "l.inputs", [](int c) { return fmt::format("r{}[columns[j]]", c); });
+      line("      __global const float* r{} = records + (size_t)min(x + {}, end - 1) * (size_t)variables;", c, c);
+    add_inputs_at(group, "inputs", [](int c) { return fmt::format("r{}[columns[j]]", c); });
   }
 
   /// A loop over inputs; `place(c)`: where those of cell c begin, in cells from `source` on.

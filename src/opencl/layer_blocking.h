@@ -19,9 +19,9 @@ struct LayerShape {
   int own = 0;        ///< inputs of the cells themselves
   int outputs = 0;    ///<
   bool leaky = true;  ///< lrelu at the end
-  /// Of a layer whose cells are samples, in rows without a border: its name in kernels/network_samples.cl.
+  /// Of a layer whose cells are samples, without a border: its name in kernels/network_samples.cl.
   std::string samples;
-  /// `coarse` inputs are computed of samples, further ones are columns of their records, as many as rpf_layer says.
+  /// `coarse` inputs are computed of samples, further ones are columns of their records.
   bool records = false;
   int coarse_stride = 0, own_stride = 0, out_stride = 0;
 
@@ -32,8 +32,7 @@ struct LayerShape {
 constexpr int padded(int values) { return (values + 7) / 8 * 8; }
 
 /// The kernel NAME(coarse, own, weights, bias, out, rpf_layer), weights [ky][kx][coarse, then own][padded(outputs)]. Of
-/// samples a function that has one more parameter, the row that it makes; with records NAME(computed, records, weights,
-/// bias, out, columns, rpf_layer, row).
+/// samples a function: kernels/network_samples.cl says with which parameters.
 std::string layer_text(const LayerShape& shape, const Blocking& blocking);
 
 /// The function head_of_pass() of kernels/network_passes.cl: a dense layer without lrelu, weights

@@ -109,7 +109,10 @@ void NetworkProgram::compile(const Blocking& blocking, const Check& check) {
   });
   const LayerShape& pass = heads_[1].shape;
   text += head_text(pass.own, pass.outputs, blocking);
-  const std::string definitions = fmt::format("-DRPF_HEAD_INPUTS={} -DRPF_PASS_VALUES={}", pass.own, pass.outputs);
+  const std::string definitions = fmt::format(
+      "-DRPF_HEAD_INPUTS={} -DRPF_PASS_VALUES={} -DRPF_SAMPLE_FEATURES={} -DRPF_HIDDEN_STRIDE={} "
+      "-DRPF_FEATURE_STRIDE={}",
+      pass.own, pass.outputs, features_, padded(features_), feature_stride());
   session_.rehearse("network.cl", definitions, text, check);
   program_ = session_.compile("network.cl", definitions, text);
   for_all([&](DeviceLayer& layer) {

@@ -37,8 +37,7 @@ std::vector<EstimateStage> OpenClBackend::trace_estimate(const Window& region) {
 
 std::uint64_t OpenClBackend::estimate_bytes(const EstimatePlan& plan, const Window& window,
                                             std::uint64_t samples) const {
-  return EstimateSteps(plan, window, static_cast<double>(samples), 0, window.height, false).bytes() +
-         SampleStage::bytes(*plan.network);
+  return EstimateSteps(plan, window, static_cast<double>(samples), 0, window.height, false).bytes();
 }
 
 }  // namespace rpf

@@ -7,10 +7,8 @@
 namespace rpf {
 namespace {
 
-/// Samples at once: their values are a few MB.
-constexpr std::size_t samples_at_once = 8192;
-
-std::size_t whole_rows(std::size_t samples) { return (samples + RPF_SAMPLE_ROW - 1) / RPF_SAMPLE_ROW; }
+/// A launch cannot be stopped: some hundredths of a second.
+constexpr std::uint64_t samples_of_launch = 1 << 20;
 
 int column_of(const EstimatePlan& plan, int input) { return plan.column[static_cast<std::size_t>(input)]; }
 
@@ -43,78 +41,52 @@ SampleStage::SampleStage(Session& session, const NetworkProgram& program, const 
       job_(job),
       items_(items),
       trace_(trace),
-      see_samples_(program.kernel("see_samples")),
-      see_pixels_(program.kernel("see_pixels")),
-      weigh_samples_(program.kernel("weigh_samples")),
-      sum_samples_(program.kernel("sum_samples")),
+      see_(program.kernel("see")),
+      sum_(program.kernel("sum")),
       columns_(record_columns(job.plan)),
       columns_buffer_(session.copy(columns_)),
       guide_columns_(session.copy(guide_columns(job.plan))),
       base_columns_(session.copy(base_columns(job.plan))) {}
 
-std::uint32_t SampleStage::samples(int pixel) const {
+std::uint32_t SampleStage::first_sample(int row, int column) const {
   const Window& w = job_.window;
-  const int y = w.y + pixel / w.width, x = w.x + pixel % w.width;
-  return job_.frame.samples(static_cast<std::size_t>(y) * static_cast<std::size_t>(job_.frame.width) +
-                            static_cast<std::size_t>(x));
+  return job_.frame.first_sample[static_cast<std::size_t>(w.y + row) * static_cast<std::size_t>(job_.frame.width) +
+                                 static_cast<std::size_t>(w.x + column)];
 }
 
-template <typename... Values>
-void SampleStage::launch(cl::Kernel& kernel, const Values&... values) {
-  cl_uint number = 0;
-  (kernel.setArg(number++, values), ...);
-  session_.enqueue(kernel, items_, 1);
-}
-
-int SampleStage::end_of_chunk(int first, int end) const {
-  const int width = job_.window.width;
-  if (width < job_.frame.width) end = std::min(end, (first / width + 1) * width);
-  std::size_t count = samples(first);
-  int p = first + 1;
-  while (p < end && count + samples(p) <= samples_at_once) count += samples(p++);
-  return p;
-}
-
-SampleStage::Chunk SampleStage::chunk(int first, int end) const {
+SampleStage::Rows SampleStage::rows_of(const kernel::rpf_area& area) const {
   const Frame& frame = job_.frame;
   const EstimatePlan& plan = job_.plan;
-  const Window& w = job_.window;
-  const auto pixel = [&](int row, int x) {
-    return static_cast<std::size_t>(w.y + row) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x);
-  };
-  const auto in_frame = [&](int p) { return pixel(p / w.width, w.x + p % w.width); };
-  const int row = first / w.width, end_row = (end - 1) / w.width + 1;
-  const std::size_t from = frame.first_sample[in_frame(first)],
-                    count = frame.first_sample[in_frame(end - 1) + 1] - from;
-  const std::size_t others = plan.carried - 3;
+  const std::size_t from = first_sample(area.first, 0), count = first_sample(area.end - 1, area.width) - from,
+                    others = plan.carried - 3;
   const auto shared = [&](const auto* data, std::size_t number) {
-    return session_.host_buffer(data, number * sizeof *data, CL_MEM_READ_ONLY);
+    return number == 0 ? cl::Buffer() : session_.host_buffer(data, number * sizeof *data, CL_MEM_READ_ONLY);
   };
-  return {
-      {first, end, w.x, w.width, frame.width, row, static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(count),
-       static_cast<int>(frame.variables), plan.has_albedo ? 1 : 0, frame.weights.empty() ? 0 : 1, plan.exposure,
-       plan.weight_scale, static_cast<std::uint32_t>(plan.network->sample_features),
-       static_cast<std::uint32_t>(program_.feature_stride()), static_cast<int>(plan.carried)},
-      count,
-      shared(frame.record(from), count * frame.variables),
-      others == 0 ? cl::Buffer() : shared(frame.others.data() + (from - frame.first_record) * others, count * others),
-      frame.weights.empty() ? cl::Buffer() : shared(frame.weights.data() + (from - frame.first_record), count),
-      shared(frame.first_sample.data() + pixel(row, 0), pixel(end_row, 0) - pixel(row, 0) + 1)};
-}
-
-void SampleStage::for_chunks(int first, int end, bool again, const Progress& progress,
-                             const std::function<void(const Chunk&)>& body) {
-  const int width = job_.window.width, pixels = (end - first) * width;
-  for (int row = first, there = first; row < end; row = there) {
-    there = bring(row, end, again);
-    for (int p = row * width; p < there * width;) {
-      const Chunk chunk = this->chunk(p, end_of_chunk(p, there * width));
-      reserve(chunk.samples);
-      body(chunk);
-      progress(static_cast<double>(chunk.launch.end - p) / pixels);
-      p = chunk.launch.end;
-    }
-  }
+  const auto entries =
+      static_cast<std::size_t>(area.end - 1 - area.first) * static_cast<std::size_t>(frame.width) + area.width + 1;
+  const std::size_t record = from - frame.first_record;
+  Rows rows{{},
+            shared(frame.record(from), count * frame.variables),
+            shared(frame.others.data() + record * others, count * others),
+            frame.weights.empty() ? cl::Buffer() : shared(frame.weights.data() + record, count),
+            shared(&job_.frame.first_sample[static_cast<std::size_t>(job_.window.y + area.first) *
+                                                static_cast<std::size_t>(frame.width) +
+                                            static_cast<std::size_t>(job_.window.x)],
+                   entries)};
+  kernel::rpf_samples& l = rows.launch;
+  l.area = area;
+  l.frame_width = frame.width;
+  l.first_sample = static_cast<std::uint32_t>(from);
+  l.samples = static_cast<std::uint32_t>(count);
+  l.variables = static_cast<int>(frame.variables);
+  l.inputs = static_cast<int>(columns_.size());
+  l.has_albedo = plan.has_albedo ? 1 : 0;
+  l.has_weights = frame.weights.empty() ? 0 : 1;
+  l.exposure = plan.exposure;
+  l.weight_scale = plan.weight_scale;
+  l.carried = static_cast<int>(plan.carried);
+  l.is_traced = trace_ == nullptr ? 0 : 1;
+  return rows;
 }
 
 int SampleStage::bring(int first, int end, bool again) {
@@ -123,90 +95,96 @@ int SampleStage::bring(int first, int end, bool again) {
   return job_.frame.bring(job_.window.y + first, job_.window.y + end, again) - job_.window.y;
 }
 
-void SampleStage::reserve(std::size_t samples) {
-  if (samples <= capacity_) return;
-  capacity_ = whole_rows(std::max(samples, samples_at_once)) * RPF_SAMPLE_ROW;
-  const auto floats = [&](int values) {
-    return session_.buffer(capacity_ * static_cast<std::size_t>(values) * sizeof(float));
-  };
-  seen_ = floats(RPF_SEEN);
-  hidden_ = floats(padded(job_.plan.network->sample_features));
-  features_ = floats(program_.feature_stride());
-  weighed_ = floats(RPF_WEIGHT_FEATURES);
-  weights_ = floats(1);
+std::uint32_t SampleStage::samples_of_part(const kernel::rpf_area& area, int part) const {
+  const int parts = kernel::rpf_parts_of_row(&area), row = area.first + part / parts, begin = part % parts * area.part;
+  return first_sample(row, std::min(begin + area.part, area.width)) - first_sample(row, begin);
 }
 
-kernel::rpf_layer SampleStage::rows_of_samples(const DeviceLayer& layer, std::size_t samples) const {
-  const int rows = static_cast<int>(whole_rows(samples));
-  kernel::rpf_layer l{};
-  l.area = {RPF_SAMPLE_ROW, rows, 0, rows, RPF_SAMPLE_ROW};
-  l.coarse = {rows, RPF_SAMPLE_ROW * layer.shape.coarse_stride};
-  l.own = {rows, RPF_SAMPLE_ROW * layer.shape.own_stride};
-  l.out = {rows, RPF_SAMPLE_ROW * layer.shape.out_stride};
-  return l;
+int SampleStage::end_of_launch(const kernel::rpf_area& area, int first) const {
+  const int parts = kernel::rpf_parts_of_row(&area) * (area.end - area.first);
+  std::uint64_t samples = samples_of_part(area, first++);
+  while (first < parts && samples + samples_of_part(area, first) <= samples_of_launch)
+    samples += samples_of_part(area, first++);
+  return first;
+}
+
+void SampleStage::for_launches(const kernel::rpf_area& rows, bool again, const Progress& progress,
+                               const Launch& launch) {
+  const int parts_of_row = kernel::rpf_parts_of_row(&rows), all = parts_of_row * (rows.end - rows.first);
+  kernel::rpf_area area = rows;
+  for (int row = rows.first; row < rows.end; row = area.end) {
+    area.first = row;
+    area.end = bring(row, rows.end, again);
+    Rows there = rows_of(area);
+    const int parts = parts_of_row * (area.end - area.first);
+    for (int part = 0; part < parts; part = there.launch.end_part) {
+      there.launch.first_part = part;
+      there.launch.end_part = end_of_launch(area, part);
+      launch(there);
+      progress(static_cast<double>(there.launch.end_part - part) / all);
+    }
+  }
 }
 
 template <typename... More>
-void SampleStage::launch_on_samples(cl::Kernel& kernel, const Chunk& chunk, const More&... more) {
+void SampleStage::launch_on_samples(cl::Kernel& kernel, const Rows& rows, const More&... more) {
   const DeviceLayer &sample1 = program_.layer(0), &sample2 = program_.layer(1);
-  kernel::rpf_layer first = rows_of_samples(sample1, chunk.samples);
-  first.own = {static_cast<int>(chunk.samples), chunk.launch.variables};
-  first.inputs = static_cast<int>(columns_.size());
-  launch(kernel, chunk.records, base_columns_, columns_buffer_, sample1.weights, sample1.bias, sample2.weights,
-         sample2.bias, seen_, hidden_, features_, chunk.launch, first, rows_of_samples(sample2, chunk.samples),
-         more...);
+  cl_uint number = 0;
+  const auto set = [&](const auto&... values) { (kernel.setArg(number++, values), ...); };
+  set(rows.records, base_columns_, columns_buffer_, sample1.weights, sample1.bias, sample2.weights, sample2.bias,
+      rows.first_sample, more...);
+  session_.enqueue(kernel, items_, 1);
 }
 
-void SampleStage::see(int first, int end, const DeviceGrid& pixel, const DeviceGrid& guides, const DeviceGrid& albedo,
+void SampleStage::see(const kernel::rpf_area& area, const DeviceGrid& pixel, const DeviceGrid& guides,
+                      const DeviceGrid& albedo, const Progress& progress) {
+  for_launches(area, true, progress, [&](const Rows& rows) {
+    const cl::Buffer trace = trace_of(rows, traced_floats());
+    launch_on_samples(see_, rows, guide_columns_, pixel.buffer, guides.buffer, albedo.buffer, trace, rows.launch,
+                      pixel.rows, guides.rows, albedo.rows, pixel.stored);
+    if (trace_ != nullptr) keep_seen(rows, trace);
+  });
+}
+
+void SampleStage::sum(const kernel::rpf_area& area, const DeviceGrid& heads, const DeviceGrid& sums,
                       const Progress& progress) {
-  for_chunks(first, end, true, progress, [&](const Chunk& chunk) {
-    launch_on_samples(see_samples_, chunk);
-    launch(see_pixels_, chunk.records, guide_columns_, seen_, features_, chunk.first_sample, pixel.buffer,
-           guides.buffer, albedo.buffer, chunk.launch, pixel.rows, guides.rows, albedo.rows, pixel.stored);
-    if (trace_ != nullptr) keep_seen(chunk);
-  });
-}
-
-void SampleStage::sum(int first, int end, const DeviceGrid& heads, const DeviceGrid& sums, const Progress& progress) {
   const DeviceLayer& weight1 = program_.layer(job_.plan.network->layers.size() - 2);
-  for_chunks(first, end, false, progress, [&](const Chunk& chunk) {
-    launch_on_samples(weigh_samples_, chunk, heads.buffer, chunk.first_sample, weight1.weights, weight1.bias,
-                      program_.last_weights(), chunk.weights, weighed_, weights_,
-                      rows_of_samples(weight1, chunk.samples), heads.rows, heads.stored);
-    launch(sum_samples_, weights_, seen_, chunk.records, chunk.others, chunk.first_sample, sums.buffer, chunk.launch,
-           sums.rows);
-    if (trace_ != nullptr) keep(trace_->weights, weights_, chunk.samples, 1, 1);
+  for_launches(area, false, progress, [&](const Rows& rows) {
+    const cl::Buffer trace = trace_of(rows, 1);
+    launch_on_samples(sum_, rows, heads.buffer, weight1.weights, weight1.bias, program_.last_weights(), rows.weights,
+                      rows.others, sums.buffer, trace, rows.launch, heads.rows, sums.rows, heads.stored);
+    if (trace_ == nullptr) return;
+    const std::vector<float> weights = session_.read<float>(trace, 0, rows.launch.samples);
+    trace_->weights.insert(trace_->weights.end(), weights.begin(), weights.end());
   });
 }
 
-void SampleStage::keep(std::vector<float>& to, const cl::Buffer& from, std::size_t samples, int stride, int values) {
-  const std::vector<float> all = session_.read<float>(from, 0, samples * static_cast<std::size_t>(stride));
-  for (std::size_t s = 0; s < samples; ++s) {
-    const auto first = all.begin() + static_cast<std::ptrdiff_t>(s) * stride;
-    to.insert(to.end(), first, first + values);
-  }
+// Traced frames are small: a launch has all samples of its rows.
+cl::Buffer SampleStage::trace_of(const Rows& rows, std::size_t floats) const {
+  if (trace_ == nullptr) return {};
+  return session_.buffer(std::max<std::size_t>(rows.launch.samples * floats, 1) * sizeof(float));
 }
 
-void SampleStage::keep_seen(const Chunk& chunk) {
-  const int features = job_.plan.network->sample_features;
-  keep(trace_->sample1, hidden_, chunk.samples, padded(features), features);
-  keep(trace_->sample2, features_, chunk.samples, program_.feature_stride(), features);
-  std::vector<float> computed;
-  keep(computed, seen_, chunk.samples, RPF_SEEN, RPF_INPUT_NORMAL);
-  for (std::size_t s = 0; s < chunk.samples; ++s) {
+std::size_t SampleStage::traced_floats() const {
+  return RPF_SEEN + 2 * static_cast<std::size_t>(padded(job_.plan.network->sample_features));
+}
+
+void SampleStage::keep_seen(const Rows& rows, const cl::Buffer& trace) {
+  const auto features = static_cast<std::size_t>(job_.plan.network->sample_features),
+             stride = static_cast<std::size_t>(padded(job_.plan.network->sample_features));
+  const std::vector<float> all = session_.read<float>(trace, 0, rows.launch.samples * traced_floats());
+  for (std::size_t s = 0; s < rows.launch.samples; ++s) {
+    const float* seen = all.data() + s * traced_floats();
+    const float* record = job_.frame.record(rows.launch.first_sample + s);
     float inputs[RPF_INPUTS] = {};
-    std::copy_n(computed.data() + s * RPF_INPUT_NORMAL, RPF_INPUT_NORMAL, inputs);
+    std::copy_n(seen, RPF_INPUT_NORMAL, inputs);
     for (std::size_t i = 0; i < columns_.size(); ++i)
-      inputs[job_.plan.live[RPF_INPUT_NORMAL + i]] =
-          job_.frame.record(chunk.launch.first_sample + s)[static_cast<std::size_t>(columns_[i])];
+      inputs[job_.plan.live[RPF_INPUT_NORMAL + i]] = record[static_cast<std::size_t>(columns_[i])];
+    const float *hidden = seen + RPF_SEEN, *outputs = hidden + stride;
     trace_->inputs.insert(trace_->inputs.end(), std::begin(inputs), std::end(inputs));
+    trace_->sample1.insert(trace_->sample1.end(), hidden, hidden + features);
+    trace_->sample2.insert(trace_->sample2.end(), outputs, outputs + features);
   }
-}
-
-std::uint64_t SampleStage::bytes(const Network& network) {
-  const int floats = RPF_SEEN + padded(network.sample_features) + padded(network.sample_features + RPF_CONTEXT) +
-                     RPF_WEIGHT_FEATURES + 1;
-  return samples_at_once * sizeof(float) * static_cast<std::uint64_t>(floats);
 }
 
 }  // namespace rpf

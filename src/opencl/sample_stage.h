@@ -29,7 +29,7 @@ struct SampleTrace {
   std::vector<float> inputs, sample1, sample2, weights;
 };
 
-/// Goes through the samples of some rows in chunks that stay in the processor's caches.
+/// Goes through the samples of some rows.
 class SampleStage {
  public:
   using Progress = std::function<void(double share)>;  ///< shares of the rows sum to 1
@@ -39,51 +39,45 @@ class SampleStage {
               SampleTrace* trace);
 
   /// Values, guides and albedo of the pixels of rows first .. end - 1 of the window.
-  void see(int first, int end, const DeviceGrid& pixel, const DeviceGrid& guides, const DeviceGrid& albedo,
+  void see(const kernel::rpf_area& rows, const DeviceGrid& pixel, const DeviceGrid& guides, const DeviceGrid& albedo,
            const Progress& progress);
   /// Sums of their weighted samples, from what the head says before the passes.
-  void sum(int first, int end, const DeviceGrid& heads, const DeviceGrid& sums, const Progress& progress);
-
-  /// Bytes on the device beside the frame.
-  static std::uint64_t bytes(const Network& network);
+  void sum(const kernel::rpf_area& rows, const DeviceGrid& heads, const DeviceGrid& sums, const Progress& progress);
 
  private:
-  /// Some pixels, and what there is of the frame for them.
-  struct Chunk {
-    kernel::rpf_chunk launch;
-    std::size_t samples;
+  /// Rows, and what there is of the frame for them.
+  struct Rows {
+    kernel::rpf_samples launch;
     cl::Buffer records, others, weights, first_sample;
   };
+  using Launch = std::function<void(const Rows&)>;
 
-  std::uint32_t samples(int pixel) const;
-  /// The end of the chunk that begins with a pixel: its samples lie side by side in the frame.
-  int end_of_chunk(int first, int end) const;
-  Chunk chunk(int first, int end) const;
+  std::uint32_t first_sample(int row, int column) const;
+  /// Rows area.first .. area.end - 1 of the window, whose samples are there.
+  Rows rows_of(const kernel::rpf_area& area) const;
   /// Has the samples of rows first .. end - 1 of the window be there, or of the first of these: Frame::bring().
   int bring(int first, int end, bool again);
-  /// `again`: whether the samples will be asked for once more.
-  void for_chunks(int first, int end, bool again, const Progress& progress,
-                  const std::function<void(const Chunk&)>& body);
-  void reserve(std::size_t samples);
-  kernel::rpf_layer rows_of_samples(const DeviceLayer& layer, std::size_t samples) const;
-  /// A kernel that begins with what is computed of a chunk's samples, and their features.
+  /// Launches that together take all parts of the rows. `again`: whether the samples will be asked for once more.
+  void for_launches(const kernel::rpf_area& rows, bool again, const Progress& progress, const Launch& launch);
+  /// The end of the parts from `first` on that are one launch.
+  int end_of_launch(const kernel::rpf_area& area, int first) const;
+  std::uint32_t samples_of_part(const kernel::rpf_area& area, int part) const;
+  /// A kernel that begins with what is computed of samples, and their features.
   template <typename... More>
-  void launch_on_samples(cl::Kernel& kernel, const Chunk& chunk, const More&... more);
-  template <typename... Values>
-  void launch(cl::Kernel& kernel, const Values&... values);
-  void keep(std::vector<float>& to, const cl::Buffer& from, std::size_t samples, int stride, int values);
-  void keep_seen(const Chunk& chunk);
+  void launch_on_samples(cl::Kernel& kernel, const Rows& rows, const More&... more);
+  /// Floats of a sample that see() tells of it, where all stages are kept.
+  std::size_t traced_floats() const;
+  void keep_seen(const Rows& rows, const cl::Buffer& trace);
+  cl::Buffer trace_of(const Rows& rows, std::size_t floats) const;
 
   Session& session_;
   const NetworkProgram& program_;
   EstimateJob job_;
   std::size_t items_;
   SampleTrace* trace_;
-  cl::Kernel see_samples_, see_pixels_, weigh_samples_, sum_samples_;
+  cl::Kernel see_, sum_;
   std::vector<int> columns_;  ///< of the inputs from the seventh live one on
   cl::Buffer columns_buffer_, guide_columns_, base_columns_;
-  std::size_t capacity_ = 0;  ///< samples that the following have room for
-  cl::Buffer seen_, hidden_, features_, weighed_, weights_;
 };
 
 }  // namespace rpf

@@ -224,10 +224,21 @@ void Session::finish() {
   canaries_.check(queue_);
 }
 
+cl::Event Session::mark() {
+  cl::Event event;
+  queue_.enqueueMarkerWithWaitList(nullptr, &event);
+  queue_.flush();
+  return event;
+}
+
 cl::Buffer Session::copy_of(const void* data, std::size_t bytes) {
   cl::Buffer result = buffer(std::max<std::size_t>(bytes, sizeof(float)));
   if (bytes > 0) queue_.enqueueWriteBuffer(result, CL_TRUE, 0, bytes, data);
   return result;
+}
+
+bool Session::shares_memory() const {
+  return !has_canaries && (device_.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
 }
 
 cl::Buffer Session::host_buffer(const void* data, std::size_t bytes, cl_mem_flags access) {

@@ -58,9 +58,13 @@ class Session {
   /// The same without waiting, but for a kernel's first launch: what is asked for later comes after it. finish() waits.
   void enqueue(const cl::Kernel& kernel, std::size_t items, std::size_t group);
   void finish();
+  /// An event that comes after all that was asked for.
+  cl::Event mark();
 
   /// A buffer of the device's own.
   cl::Buffer buffer(std::size_t bytes) { return canaries_.allocate(context_, queue_, CL_MEM_READ_WRITE, bytes); }
+  /// Whether the device's memory is the host's, so that a host_buffer() costs nothing.
+  bool shares_memory() const;
   /// A buffer that is the host's own memory where the device can do that, else a copy; `bytes` 0 makes a small one.
   /// Debug builds always copy, as a device with memory of its own does.
   cl::Buffer host_buffer(const void* data, std::size_t bytes, cl_mem_flags access);

@@ -9,9 +9,10 @@ NUMERIC = "kernels/numeric.h"
 NEIGHBORHOOD, STATISTICS = "kernels/neighborhood.cl", "kernels/statistics.cl"
 COORDINATES = "kernels/coordinates.cl"
 WEIGHTING, FILTER = "kernels/weighting.cl", "kernels/filter.cl"
-SAMPLES, PASSES, NETWORK = "kernels/network_samples.cl", "kernels/network_passes.cl", "kernels/network.cl"
+SAMPLES, PIXELS, SUMS = "kernels/network_samples.cl", "kernels/network_pixels.cl", "kernels/network_sums.cl"
+PASSES, NETWORK = "kernels/network_passes.cl", "kernels/network.cl"
 LAYERS, STEPS = "src/opencl/layer_blocking.cpp", "src/opencl/estimate_steps.cpp"
-LEARNED = "conformance learned/scene/dof "
+LEARNED, MANY = "conformance learned/scene/dof ", "conformance learned/samples/150spp "
 DOF, PAPER = "conformance scene/dof/thesis ", "conformance scene/dof/paper "
 
 MUTANTS = [
@@ -93,14 +94,18 @@ MUTANTS = [
     Mutant("cl_seen", SAMPLES, "rows[RPF_SEEN_INPUTS + RPF_INPUT_BRIGHTNESS + i] = rpf_brightness(color);",
            "rows[RPF_SEEN_INPUTS + RPF_INPUT_BRIGHTNESS + i] = rpf_brightness(color * 1.000001f);", LEARNED + "inputs", "another color"),
     Mutant("cl_records", LAYERS, "r{}[columns[j]]", "r{}[columns[j] - 1]", LEARNED + "sample1", "the column before"),
-    Mutant("cl_moments", SAMPLES, "squares = fma(d, d, squares);\n  }\n  const float samples = (float)count;\n  float means[8]",
-           "squares += d * d;\n  }\n  const float samples = (float)count;\n  float means[8]", LEARNED + "pixel", "two roundings"),
+    Mutant("cl_moments", PIXELS, "m->squares = fma(d, d, m->squares);", "m->squares += d * d;", LEARNED + "pixel", "two roundings"),
+    Mutant("cl_stretch", SAMPLES, "stretch.begins = first_of_pixel(part, x) == sample;", "stretch.begins = true;", MANY + "pixel",
+           "a pixel begins anew with every row of samples"),
+    Mutant("cl_stretch_sums", SUMS, "PixelSums sums = stretch->begins ? no_sums() : *pixel;", "PixelSums sums = no_sums();", MANY + "sums",
+           "only the last samples of a pixel count"),
+    Mutant("cl_context", SUMS, "    x = stretch.x;\n", "", LEARNED + "weights", "the context of the pixel before"),
     Mutant("cl_border_cells", NETWORK, "line[k - stride] = line[k];", "line[k - stride] = 0.0f;", LEARNED + "down0", "zeros beside the frame"),
     Mutant("cl_layer_order", LAYERS, "for (int ky = -1; ky <= 1; ++ky)", "for (int ky = 1; ky >= -1; --ky)", LEARNED + "down0", "rows upside down"),
     Mutant("cl_halve", NETWORK, "sum += vload8(0, upper + at + stride);\n", "sum += vload8(0, upper + at);\n", LEARNED + "down1a", "a cell twice"),
     Mutant("cl_coarse", LAYERS, "return (c + kx + 1) / 2;", "return (c + kx) / 2;", LEARNED + "up1a", "the coarse cell beside"),
-    Mutant("cl_learned_weight", SAMPLES, "float16 logit = output[RPF_WEIGHT_FEATURES];", "float16 logit = 0.0f;", LEARNED + "weights", "no bias"),
-    Mutant("cl_sums", SAMPLES, "rpf_added(total, weights[samples.first + s])", "rpf_added(total, weights[samples.first])", LEARNED + "sums", "the first sample for all"),
+    Mutant("cl_learned_weight", SUMS, "float16 logit = output[RPF_WEIGHT_FEATURES];", "float16 logit = 0.0f;", LEARNED + "weights", "no bias"),
+    Mutant("cl_sums", SUMS, "rpf_added(sums.weight, weight)", "weight", LEARNED + "sums", "the last sample for all"),
     Mutant("cl_taps", PASSES, "total += row[t];", "total += t == 4 ? 0.0f : row[t];", LEARNED + "pass0", "a tap is not counted"),
     Mutant("cl_edge_weights", PASSES, "begin == 0 && x < RPF_MARGIN; ++x) row[x] = RPF_NOT_THERE", "begin == 0 && x < RPF_MARGIN; ++x) row[x] = 0.0f",
            LEARNED + "pass0", "pixels beside the frame weigh"),
