@@ -94,22 +94,24 @@ static void finish_color(const Moments* seen, float samples, const RowOut* out, 
   statistics[RPF_STATISTIC_SAMPLES] = 1.0f / sqrt(samples);
 }
 
+static float of_column(const float* values, int column) { return column < 0 ? 0.0f : values[column]; }
+
 // Means of the guides and their spreads. `columns`: among the first RPF_LANES values of records; -1 for a guide that
 // is 0.
 static void finish_guides(const Moments* records, __global const int* columns, float samples, const RowOut* out, int x,
                           __global float* statistics) {
-  float mean[RPF_LANES], variance[RPF_LANES], of_guides[RPF_GUIDES];
+  float mean[RPF_LANES], variance[RPF_LANES];
   vstore16(mean_of(records, samples), 0, mean);
   vstore16(variance_of(records, samples), 0, variance);
   for (int k = 0; k < RPF_GUIDES; ++k) {
-    const int column = columns[k];
-    const float value = column < 0 ? 0.0f : mean[column];
-    of_guides[k] = column < 0 ? 0.0f : variance[column];
+    const float value = of_column(mean, columns[k]);
     statistics[RPF_STATISTIC_GUIDES + k] = value;
     out->guides[k * out->guides_plane + x] = value;
   }
   for (int i = 0; i < 3; ++i)
-    statistics[RPF_STATISTIC_SPREADS + i] = sqrt(of_guides[3 * i] + of_guides[3 * i + 1] + of_guides[3 * i + 2]);
+    statistics[RPF_STATISTIC_SPREADS + i] =
+        sqrt(of_column(variance, columns[3 * i]) + of_column(variance, columns[3 * i + 1]) +
+             of_column(variance, columns[3 * i + 2]));
 }
 
 static void finish_pixel(const PixelMoments* pixel, __global const int* guide_columns, uint count, const RowOut* out,

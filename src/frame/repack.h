@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "frame/column_block.h"
-#include "memory/pages.h"
 #include "parallel/workers.h"
 #include "rpf/samples.h"
 
 namespace rpf {
+
+/// Gives the memory behind the last element back: shrink_to_fit() would copy, and need both at once.
+void release_tail(std::vector<float>& values);
 
 /// Records that a thread makes before it writes them.
 constexpr std::size_t piece_records = 16 * block_records;

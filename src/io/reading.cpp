@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "io/channel_names.h"
-#include "memory/pages.h"
 #include "rpf/error.h"
 
 namespace rpf::io {
@@ -44,7 +43,6 @@ void leave_out_unwanted(SampleFileInfo& info, const SampleReadOptions& options) 
 
 void allocate_values(SampleBuffer& samples) {
   samples.values.reserve(samples.sample_count() * (samples.layout.size() + spare_columns));
-  use_large_pages(samples.values.data(), samples.values.capacity() * sizeof(float));
   samples.values.resize(samples.sample_count() * samples.layout.size());
 }
 

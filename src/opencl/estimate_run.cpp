@@ -47,27 +47,11 @@ EstimateRun::EstimateRun(Session& session, const NetworkProgram& program, const 
       finish_(program.kernel("finish")),
       first_(first),
       end_(end) {
-  allocate_grids();
-}
-
-void EstimateRun::allocate_grids() {
-  constexpr std::size_t page = 4096;  // what drivers take for their own without copying
-  const auto bytes = [&](std::size_t i) {
-    const auto floats = static_cast<std::size_t>(steps_.pipeline.rows(static_cast<int>(i))) *
-                        static_cast<std::size_t>(steps_.grids[i].pitch());
-    return (floats * sizeof(float) + read_behind + page - 1) / page * page;
-  };
-  const bool shares = session_.shares_memory();
-  std::size_t all = 0;
-  for (std::size_t i = 0; shares && i < steps_.grids.size(); ++i) all += bytes(i);
-  if (shares) memory_ = LargePages(all);
-  char* place = memory_.data();
   for (std::size_t i = 0; i < steps_.grids.size(); ++i) {
     const EstimateGrid& g = steps_.grids[i];
-    grids_.push_back({shares ? session_.host_buffer(place, bytes(i), CL_MEM_READ_WRITE) : session_.buffer(bytes(i)),
-                      {steps_.pipeline.rows(static_cast<int>(i)), g.pitch()},
-                      g.stored});
-    if (shares) place += bytes(i);
+    const int rows = steps_.pipeline.rows(static_cast<int>(i));
+    const std::size_t floats = static_cast<std::size_t>(rows) * static_cast<std::size_t>(g.pitch());
+    grids_.push_back({session_.buffer(floats * sizeof(float) + read_behind), {rows, g.pitch()}, g.stored});
   }
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "memory/pages.h"
 #include "opencl/estimate_steps.h"
 #include "opencl/sample_stage.h"
 
@@ -25,7 +24,6 @@ class EstimateRun {
  private:
   using Part = std::function<void(double share)>;
 
-  void allocate_grids();
   void run_step(const EstimateStep& step, int first, int end, const Part& part);
   void run_layer(const EstimateStep& step, const DeviceLayer& layer, int first, int end);
   void run_halve(const EstimateStep& step, int first, int end);
@@ -49,7 +47,6 @@ class EstimateRun {
   std::size_t items_;
   SampleTrace sample_trace_;
   EstimateSteps steps_;
-  LargePages memory_;  ///< of the grids, where the device's memory is the host's
   std::vector<DeviceGrid> grids_;
   SampleStage samples_;
   cl::Kernel halve_, embed_, weigh_pixels_, filter_pass_, finish_;

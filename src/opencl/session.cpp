@@ -237,10 +237,6 @@ cl::Buffer Session::copy_of(const void* data, std::size_t bytes) {
   return result;
 }
 
-bool Session::shares_memory() const {
-  return !has_canaries && (device_.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
-}
-
 cl::Buffer Session::host_buffer(const void* data, std::size_t bytes, cl_mem_flags access) {
   if (has_canaries || bytes == 0) return copy_of(data, bytes);
   return {context_, access | CL_MEM_USE_HOST_PTR, bytes, const_cast<void*>(data)};

@@ -63,8 +63,6 @@ class Session {
 
   /// A buffer of the device's own.
   cl::Buffer buffer(std::size_t bytes) { return canaries_.allocate(context_, queue_, CL_MEM_READ_WRITE, bytes); }
-  /// Whether the device's memory is the host's, so that a host_buffer() costs nothing.
-  bool shares_memory() const;
   /// A buffer that is the host's own memory where the device can do that, else a copy; `bytes` 0 makes a small one.
   /// Debug builds always copy, as a device with memory of its own does.
   cl::Buffer host_buffer(const void* data, std::size_t bytes, cl_mem_flags access);

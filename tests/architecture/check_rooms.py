@@ -13,21 +13,20 @@ ROOMS = {
     "include": "",
     "src/parts": "",                  # where the files beside the library are
     "src/parallel": "",               # work that several threads share
-    "src/memory": "",                 # pages
     # what was rendered; what will be done about it; what a backend is asked
-    "src/frame": "src/parallel src/memory kernels",  # the sums of resolve
+    "src/frame": "src/parallel kernels",  # the sums of resolve
     "src/plan": "src/parallel src/frame kernels",
     "src/learned": "src/parallel src/frame kernels",  # the estimator of docs/network.md: its networks, what it is shown
     "src/seam": "src/frame src/plan src/learned kernels",
     # those who do it; what follows a pass; the run
     "src/cpu": "src/parallel src/frame src/plan src/learned src/seam kernels",
-    "src/opencl": "src/parts src/frame src/plan src/learned src/seam src/memory kernels",
+    "src/opencl": "src/parts src/frame src/plan src/learned src/seam kernels",
     "src/probe": "src/opencl",        # a program: asks drivers in a process of its own
     "src/run": "src/parallel src/frame src/plan src/learned src/seam src/cpu src/opencl kernels",
     "src/explain": "src/parallel src/frame src/plan src/learned src/seam src/run kernels",
     "src/conformance": "src/parallel src/frame src/learned src/seam src/cpu src/opencl kernels",
     # beside the filter, sharing nothing with it but the public headers
-    "src/io": "src/parts src/parallel src/memory",
+    "src/io": "src/parts src/parallel",
     "src/images": "src/io",           # a library of its own; src/io loads it
     "src/metrics": "",
     "src/scene": "src/parallel",
