@@ -45,7 +45,8 @@ class Estimated {
     const std::array<double, 3> exact = mean_color(prepared_.frame, number_);
     std::array<float, 3> mean{};
     std::transform(exact.begin(), exact.end(), mean.begin(), [](double c) { return static_cast<float>(c); });
-    const double own = own_share(prepared_.frame.samples(number_), color, mean.data(), plan_.exposure);
+    const double own =
+        own_share(PixelWeights(prepared_.frame, number_).effective_samples(), color, mean.data(), plan_.exposure);
     PixelShares shares = pixel_shares(plan_, stages, window, counts(window), x, y);
     if (own > 0) draw_to_mean(shares, own, place(window, x, y), mean);
     for (int row = region.y; row < region.y + region.height; ++row)

@@ -53,10 +53,13 @@ std::vector<float> resolve_rows(const Frame& frame, const std::vector<float>& co
 
 PixelWeights::PixelWeights(const Frame& frame, std::size_t pixel)
     : frame_(frame), is_weighted_(!frame.weights.empty()) {
-  for (std::uint32_t i = frame.first_sample[pixel]; is_weighted_ && i < frame.first_sample[pixel + 1]; ++i)
-    total_ += frame.weight(i);
+  for (std::uint32_t i = frame.first_sample[pixel]; is_weighted_ && i < frame.first_sample[pixel + 1]; ++i) {
+    const double weight = frame.weight(i);
+    total_ += weight;
+    squares_ += weight * weight;
+  }
   is_weighted_ = total_ > 0;
-  if (!is_weighted_) total_ = frame.samples(pixel);
+  if (!is_weighted_) total_ = squares_ = frame.samples(pixel);
 }
 
 void mean_of_pixel(const Frame& frame, std::size_t pixel, std::size_t carried, double* mean) {

@@ -23,11 +23,13 @@ class PixelWeights {
   PixelWeights(const Frame& frame, std::size_t pixel);
   double of(std::size_t sample) const { return is_weighted_ ? frame_.weight(sample) : 1; }  ///< a sample of the frame
   double total() const { return total_; }
+  /// So many samples of equal weight make a mean as noisy as that of these (Kish 1965).
+  double effective_samples() const { return squares_ > 0 ? total_ * total_ / squares_ : 0; }
 
  private:
   const Frame& frame_;
   bool is_weighted_;
-  double total_ = 0;
+  double total_ = 0, squares_ = 0;  ///< sums of the weights and of their squares
 };
 
 /// The mean color of a pixel's samples, from the records, in double: for what is told, not for what is filtered.

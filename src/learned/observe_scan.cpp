@@ -45,6 +45,8 @@ std::vector<PixelBlock> blocks_of(const std::vector<double>& luminances, const W
   return blocks;
 }
 
+std::size_t index(int input) { return static_cast<std::size_t>(input); }
+
 bool is_relative(int input) {
   return (input >= RPF_INPUT_POSITION && input < RPF_INPUT_MISS) || input == RPF_INPUT_DISTANCE2;
 }
@@ -109,37 +111,41 @@ void ObserveScan::include_position(const SampleBuffer& rows, std::size_t pixel, 
   for (std::size_t k = 0; k < 3; ++k) positions_[k][pixel] = view_.position(rows.record(begin), k);
 }
 
+void ObserveScan::know_first(const SampleBuffer& rows, const std::vector<int>& inputs, FirstValues& first) const {
+  if (std::exchange(first.are_known, true)) return;
+  const RecordView view = view_.only(inputs);
+  InputBlock block;
+  ColumnBlock records = view.block();
+  records.take(rows.record(0), 1);
+  view.read(records, found_.positions, block);
+  for (const int input : inputs) first.values[input] = block.values[input][0];
+}
+
 void ObserveScan::leave_constant(const SampleBuffer& rows, std::vector<int>& inputs, FirstValues& first) const {
   const std::size_t count = rows.sample_count();
   if (count == 0 || inputs.empty()) return;
-  if (!std::exchange(first.are_known, true)) {
-    const RecordView view = view_.only(inputs);
-    InputBlock block;
-    ColumnBlock records = view.block();
-    records.take(rows.record(0), 1);
-    view.read(records, found_.positions, block);
-    for (const int input : inputs) first.values[input] = block.values[input][0];
-  }
+  know_first(rows, inputs, first);
   constexpr std::size_t samples_of_part = 256 * block_records;
-  // Mostly the first samples are enough.
-  inputs = constant_in(rows, 0, std::min(samples_of_part, count), std::move(inputs), first);
-  if (inputs.empty()) return;
   const std::size_t parts = (count - 1) / samples_of_part + 1;
-  std::vector<std::vector<int>> constant(parts, inputs);
-  Workers(threads_).for_all(1, parts, [&](std::size_t n, std::size_t /*worker*/) {
-    const std::size_t begin = n * samples_of_part;
-    constant[n] = constant_in(rows, begin, std::min(begin + samples_of_part, count), inputs, first);
-  });
-  const auto varies = [&](int input) {
-    return std::any_of(constant.begin(), constant.end(), [&](const std::vector<int>& part) {
-      return std::find(part.begin(), part.end(), input) == part.end();
-    });
+  Marked varying{};
+  const auto look_at = [&](std::size_t part) {
+    const std::size_t begin = part * samples_of_part;
+    find_varying(rows, begin, std::min(begin + samples_of_part, count), inputs, first, varying);
   };
-  inputs.erase(std::remove_if(inputs.begin(), inputs.end(), varies), inputs.end());
+  const auto leave_unmarked = [&] {
+    inputs.erase(std::remove_if(inputs.begin(), inputs.end(), [&](int i) { return varying.at(index(i)).load(); }),
+                 inputs.end());
+  };
+  look_at(0);  // mostly enough
+  leave_unmarked();
+  if (inputs.empty()) return;
+  // From the end on: what does not vary in the first rows, such as a sky, may do so in all others.
+  Workers(threads_).for_all(1, parts, [&](std::size_t n, std::size_t /*worker*/) { look_at(parts - n); });
+  leave_unmarked();
 }
 
-std::vector<int> ObserveScan::constant_in(const SampleBuffer& rows, std::size_t begin, std::size_t end,
-                                          std::vector<int> inputs, const FirstValues& first) const {
+void ObserveScan::find_varying(const SampleBuffer& rows, std::size_t begin, std::size_t end, std::vector<int> inputs,
+                               const FirstValues& first, Marked& varying) const {
   InputBlock block;
   RecordView view = view_.only(inputs);
   ColumnBlock records = view.block();
@@ -149,15 +155,16 @@ std::vector<int> ObserveScan::constant_in(const SampleBuffer& rows, std::size_t 
     view.read(records, found_.positions, block);
     const auto varies = [&](int input) {
       const float* values = block.values[input];
-      return std::any_of(values, values + count, [&](float value) { return value != first.values[input]; });
+      std::atomic<bool>& mark = varying.at(index(input));
+      if (std::any_of(values, values + count, [&](float value) { return value != first.values[input]; })) mark = true;
+      return mark.load(std::memory_order_relaxed);
     };
-    const auto varying = std::remove_if(inputs.begin(), inputs.end(), varies);
-    if (varying == inputs.end()) continue;
-    inputs.erase(varying, inputs.end());
+    const auto left = std::remove_if(inputs.begin(), inputs.end(), varies);
+    if (left == inputs.end()) continue;
+    inputs.erase(left, inputs.end());
     view = view_.only(inputs);
     records = view.block();
   }
-  return inputs;
 }
 
 /// The power of two that exposes the frame: of the mean luminance, without what is far above the median.

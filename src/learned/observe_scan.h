@@ -2,6 +2,8 @@
 // rows after rows.
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <vector>
 
 #include "frame/clean.h"
@@ -47,15 +49,19 @@ class ObserveScan {
     bool are_known = false;
     float values[RPF_INPUTS] = {};
   };
+  using Marked = std::array<std::atomic<bool>, RPF_INPUTS>;
 
   /// Of a pixel with the samples begin .. end - 1 of the rows.
   void include_luminance(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin, std::uint32_t end);
   void include_position(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin, std::uint32_t end);
+  /// What these inputs are for the first sample of all, if these are the first rows.
+  void know_first(const SampleBuffer& rows, const std::vector<int>& inputs, FirstValues& first) const;
   /// Leaves in `inputs` those that are for all samples what they are for the first of all.
   void leave_constant(const SampleBuffer& rows, std::vector<int>& inputs, FirstValues& first) const;
-  /// The same of the samples begin .. end - 1, where it is known what the first of all has.
-  std::vector<int> constant_in(const SampleBuffer& rows, std::size_t begin, std::size_t end, std::vector<int> inputs,
-                               const FirstValues& first) const;
+  /// Marks those of `inputs` that have another value in one of the samples begin .. end - 1; what others have marked is
+  /// not looked at any more.
+  void find_varying(const SampleBuffer& rows, std::size_t begin, std::size_t end, std::vector<int> inputs,
+                    const FirstValues& first, Marked& varying) const;
   float exposure() const;
 
   Method method_;

@@ -189,7 +189,7 @@ class Run {
       const double share = static_cast<double>(band.height) / crop.height;
       place(backend_->estimate(band, [&](double part) { meter.add_part(share * part); }), band, pixels);
     }
-    PlainMeans of_all(prepared_);
+    PlainMeans of_all(prepared_, threads_);
     if (!stream_) of_all.add_rows(0, facts.height);
     const PlainMeans& means = stream_ ? stream_->means() : of_all;
     means.draw_to_means(pixels, estimate_plan_.exposure);

@@ -34,7 +34,7 @@ std::uint64_t bytes_of_frame(const FrameSize& size, const SampleLayout& layout, 
   const std::uint64_t read = layout.size(), carried = carried_count(layout, settings);
   const std::uint64_t weights = layout.find("weight") ? 1 : 0;
   const std::uint64_t per_sample = (records <= room ? std::max(read, records) : read + records) + carried - 3 + weights;
-  const std::uint64_t means = has_own_share(size.max_samples_per_pixel) ? carried : 0;
+  const std::uint64_t means = has_own_share(size.max_samples_per_pixel) ? carried + 2 : 0;  // mean and a double
   const std::uint64_t per_pixel = 1 + 3 * carried + means;  // offsets; band, frame, image
   return word * (size.samples * per_sample + size.pixels * per_pixel);
 }

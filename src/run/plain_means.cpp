@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "frame/resolve.h"
+#include "parallel/workers.h"
 
 namespace rpf {
 namespace {
@@ -24,41 +25,58 @@ void for_pixels(const FrameFacts& facts, int first_row, int end_row, Use use) {
 
 bool has_own_share(std::uint32_t samples) { return samples > few_samples; }
 
-double own_share(std::uint32_t samples, const float* result, const float* mean, float exposure) {
-  if (!has_own_share(samples)) return 0;
+double own_share(double samples, const float* result, const float* mean, float exposure) {
+  if (samples <= few_samples) return 0;
   double apart = 0, brightness = 0.06 / exposure;
   for (std::size_t c = 0; c < 3; ++c) {
     apart += std::fabs(static_cast<double>(mean[c]) - result[c]);
     brightness += std::fabs(static_cast<double>(result[c]));
   }
-  const double distance = 40 * apart / brightness, n = samples;
-  return (1 - std::sqrt(few_samples / n)) * n / (n + distance * distance);
+  const double distance = 40 * apart / brightness;
+  return (1 - std::sqrt(few_samples / samples)) * samples / (samples + distance * distance);
 }
 
 float drawn(float result, float mean, double share) {
   return static_cast<float>(result + share * (static_cast<double>(mean) - result));
 }
 
-PlainMeans::PlainMeans(const PreparedFrame& prepared) : prepared_(prepared) {}
+PlainMeans::PlainMeans(const PreparedFrame& prepared, int threads) : prepared_(prepared), threads_(threads) {}
 
-void PlainMeans::add_rows(int first, int end) {
+PlainMeans::Part PlainMeans::part_of(int first, int end) const {
+  Part part;
   std::vector<double> mean(prepared_.facts.carried);
   for_pixels(prepared_.facts, first, end, [&](std::size_t pixel) {
     const bool is_needed = has_own_share(prepared_.frame.samples(pixel));
     mean_of_pixel(prepared_.frame, pixel, is_needed ? mean.size() : 3, mean.data());
-    for (std::size_t c = 0; c < 3; ++c) energy_ += mean[c];
-    if (is_needed) means_.insert(means_.end(), mean.begin(), mean.end());
+    for (std::size_t c = 0; c < 3; ++c) part.energy += mean[c];
+    if (!is_needed) return;
+    part.means.insert(part.means.end(), mean.begin(), mean.end());
+    part.effective.push_back(PixelWeights(prepared_.frame, pixel).effective_samples());
   });
+  return part;
+}
+
+void PlainMeans::add_rows(int first, int end) {
+  std::vector<Part> rows(static_cast<std::size_t>(std::max(end - first, 0)));
+  Workers(threads_).for_all(0, rows.size(), [&](std::size_t n, std::size_t /*worker*/) {
+    const int row = first + static_cast<int>(n);
+    rows[n] = part_of(row, row + 1);
+  });
+  for (const Part& row : rows) {
+    all_.means.insert(all_.means.end(), row.means.begin(), row.means.end());
+    all_.effective.insert(all_.effective.end(), row.effective.begin(), row.effective.end());
+    all_.energy += row.energy;
+  }
 }
 
 void PlainMeans::draw_to_means(Pixels& pixels, float exposure) const {
   const std::size_t carried = prepared_.facts.carried;
-  const float* mean = means_.data();
+  const float* mean = all_.means.data();
+  const double* samples = all_.effective.data();
   for_pixels(prepared_.facts, 0, prepared_.facts.height, [&](std::size_t pixel) {
-    const std::uint32_t samples = prepared_.frame.samples(pixel);
-    if (!has_own_share(samples)) return;
+    if (!has_own_share(prepared_.frame.samples(pixel))) return;
     float* result = pixels.data() + pixel * carried;
-    const double share = own_share(samples, result, mean, exposure);
+    const double share = own_share(*samples++, result, mean, exposure);
     for (std::size_t c = 0; c < carried; ++c) result[c] = drawn(result[c], mean[c], share);
     mean += carried;
   });

@@ -5,6 +5,7 @@
 
 #include "frame/clean.h"
 #include "learned/observe.h"
+#include "parallel/thread_count.h"
 #include "run/row_scan.h"
 
 namespace rpf {
@@ -27,7 +28,7 @@ StreamedFrame::StreamedFrame(SampleRows& rows, const ObservedFindings& found, co
       plan_(plan),
       prepared_(prepared),
       memory_(memory),
-      means_(prepared) {
+      means_(prepared, thread_count(settings)) {
   for (int first = 0; first < plan.height; first = blocks_.back().end) {
     Block block;
     block.first = first;

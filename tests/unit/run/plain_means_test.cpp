@@ -27,6 +27,26 @@ TEST(OwnShare, HasNoUnitOfRadiance) {
   EXPECT_EQ(own_share(180, result, mean, 1.0F / 256), own_share(180, of_one, apart, 1));
 }
 
+TEST(PlainMeans, CountSamplesByTheirWeights) {
+  PreparedFrame prepared;
+  Frame& frame = prepared.frame;
+  prepared.facts.width = frame.width = 1;
+  prepared.facts.height = frame.height = 1;
+  prepared.facts.carried = 3;
+  prepared.facts.crop = {0, 0, 1, 1};
+  frame.variables = 3;
+  frame.first_sample = {0, 400};
+  frame.records.assign(1200, 1);
+  for (int i = 0; i < 400; ++i) frame.weights.push_back(i < 90 ? 3.0F : i < 180 ? 1.0F : 0.0F);
+  PlainMeans means(prepared, 2);
+  means.add_rows(0, 1);
+  Pixels pixels = {0.99F, 1, 1};  // (90 (3 + 1))^2 / (90 (9 + 1)) = 144 samples
+  const double share = own_share(144, pixels.data(), same, 1);
+  EXPECT_GT(share, 0.3);
+  means.draw_to_means(pixels, 1);
+  EXPECT_EQ(pixels[0], drawn(0.99F, 1, share));
+}
+
 TEST(PlainMeans, AreDrawnToWherePixelsHaveManySamplesInTheCrop) {
   PreparedFrame prepared;
   Frame& frame = prepared.frame;
@@ -40,7 +60,7 @@ TEST(PlainMeans, AreDrawnToWherePixelsHaveManySamplesInTheCrop) {
     frame.records.insert(frame.records.end(), {i % 2 == 0 ? 0.0F : 2.0F, 1, 1});
     frame.others.push_back(i % 2 == 0 ? 3.0F : 5.0F);
   }
-  PlainMeans means(prepared);
+  PlainMeans means(prepared, 2);
   means.add_rows(0, 1);
   EXPECT_DOUBLE_EQ(means.energy(), 6);
   Pixels pixels = {7, 7, 7, 7, 1, 1, 1, 2, 7, 7, 7, 7};
