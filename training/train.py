@@ -68,7 +68,10 @@ class Frames:
         return tuple(torch.from_numpy(np.load(self.folder / f"{name}.{kind}.npy", mmap_mode="c")) for kind in ("samples", "ref"))
 
     def exposure(self, name):
-        return float(np.load(self.folder / f"{name}.exposure.npy"))
+        file = self.folder / f"{name}.exposure.npy"
+        if not file.exists():
+            raise SystemExit(f"{file} is missing: {self.folder} was made by an earlier to_frames.py; make it anew from the scenes")
+        return float(np.load(file))
 
 
 class Run:
@@ -146,6 +149,11 @@ class Run:
 
     def go(self):
         frames, validation = Frames(self.args.frames), Frames(self.args.validation)
+        for folder in (frames, validation):
+            if not folder.names:
+                raise SystemExit(f"{folder.folder} has no frames; make them with training/scenes/to_frames.py")
+        for name in validation.names:
+            validation.exposure(name)
         saved = time.monotonic()
         while self.seconds < self.args.hours * 3600:
             start = time.process_time()

@@ -41,11 +41,15 @@ struct ImageError {
 /// Peak bytes of comparing two images of so many pixels, beside the images.
 std::uint64_t comparing_bytes(std::uint64_t pixels);
 
-/// Compares the R, G, B channels by name. Throws Error(input) where sizes differ or a channel is missing.
+/// Whether images of which this is known can be compared: windows, channels and view; pixels are not looked at. Throws
+/// Error(input) where data windows or views differ or one of R, G, B is missing.
+void check_comparable(const Image& image, const Image& reference);
+
+/// Compares the R, G, B channels by name. Throws as check_comparable() does.
 ImageError compare_images(const Image& image, const Image& reference);
 
 /// Where the error is: an image with the one channel "relMSE", in each pixel the mean over R, G, B of
-/// (a - b)^2 / (b^2 + 0.01), in the reference's windows. Throws as compare_images does.
+/// (a - b)^2 / (b^2 + 0.01), in the reference's windows. Throws as check_comparable() does.
 Image relative_error_map(const Image& image, const Image& reference);
 
 }  // namespace rpf

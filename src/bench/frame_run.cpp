@@ -1,11 +1,8 @@
 #include "bench/frame_run.h"
 
-#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <chrono>
-
-#include "rpf/error.h"
 
 namespace rpf::bench {
 namespace {
@@ -44,14 +41,8 @@ FrameRun run_frame(const FrameJob& job, const Control& control) {
   const CostClock filtering;
   Result result = filter(std::move(samples), job.settings, control);
   FrameRun run{clock.elapsed(), filtering.elapsed(), std::move(result.report), {}};
-  if (!job.reference.empty()) {
-    const Image reference = read_image(job.reference, job.settings.max_memory);
-    try {
-      run.error = compare_images(result.image, reference);
-    } catch (const Error& e) {
-      throw Error(e.kind(), fmt::format("the result, measured against \"{}\": {}", job.reference, e.what()));
-    }
-  }
+  if (!job.reference.empty())
+    run.error = compare_images(result.image, read_image(job.reference, job.settings.max_memory));
   return run;
 }
 

@@ -48,12 +48,10 @@ ResultsFile::ResultsFile(std::string path, const std::string& first_key) : path_
     begin = end + 1;
   }
   check_torn(path_, text.substr(begin), first_key, lines_.size());
-  const bool was_there = std::filesystem::exists(path_);
-  const std::ofstream file(path_, std::ios::app);  // makes it
+  if (begin == text.size()) return;
   std::error_code failure;
   std::filesystem::resize_file(path_, begin, failure);
-  if (!was_there) std::filesystem::remove(path_, failure);  // until there is a result
-  if (!file || failure) throw Error(ErrorKind::output, fmt::format("\"{}\" cannot be written", path_));
+  if (failure) throw Error(ErrorKind::output, fmt::format("\"{}\" cannot be written", path_));
 }
 
 void ResultsFile::add(const std::string& key, Json line) {

@@ -12,11 +12,13 @@
 #include <tuple>
 
 #include "cli/filter_options.h"
+#include "cli/measuring.h"
 #include "cli/needs.h"
 #include "cli/numbers.h"
 #include "cli/signals.h"
 #include "rpf/error.h"
 #include "rpf/io.h"
+#include "rpf/metrics.h"
 
 namespace rpf::cli {
 
@@ -49,13 +51,12 @@ void check_reference(const bench::SweepFrame& frame, const bench::FrameJob& job,
   if (job.reference.empty()) return;
   const bool is_made = is_to_come(frame, job.reference);
   if (is_made) check_reference_need(sample_options(frame), limit);
-  const Window filtered = job.settings.crop.value_or(samples);
-  const Window reference = is_made ? window_of(frame) : inspect_image(job.reference).data_window;
-  if (!(reference == filtered))
-    throw Error(ErrorKind::input,
-                fmt::format("\"{}\" filtered has the data window {}, its reference \"{}\" has {}; name "
-                            "a reference of the same frame",
-                            job.samples, text_of(filtered), job.reference, text_of(reference)));
+  Image filtered, reference;
+  filtered.channels = reference.channels = {"R", "G", "B"};
+  filtered.data_window = job.settings.crop.value_or(samples);
+  reference.data_window = window_of(frame);
+  measuring(job.samples, job.reference,
+            [&] { check_comparable(filtered, is_made ? reference : inspect_image(job.reference)); });
 }
 
 }  // namespace

@@ -76,7 +76,10 @@ void check_text_name(const std::string& path) {
                           path));
 }
 
-void check_target(const std::string& path) { io::output_place(path); }
+void check_target(const std::string& path) {
+  if (io::output_place(path).old) return;
+  const io::AtomicFile made_and_removed(path);
+}
 
 int stored_bits(const std::string& path) { return io::format_of(path).encoding == io::Encoding::srgb_bytes ? 8 : 32; }
 

@@ -44,6 +44,16 @@ def start_process():
     drjit.set_thread_count(1)
 
 
+def check_modules():
+    """What every process imports: a pool would start one after the other for ever where one of them is missing."""
+    try:
+        import drjit  # noqa: F401
+        import mitsuba  # noqa: F401
+        import rpf.mitsuba  # noqa: F401
+    except ImportError as error:
+        sys.exit(f"{error}; install training/requirements.txt, and run this where it lies in the repository")
+
+
 def work(task):
     try:
         return write_scene(*task)
@@ -68,6 +78,7 @@ def main():
     parser.add_argument("--processes", type=int, default=os.cpu_count())
     parser.add_argument("--frames", type=Path)
     options = parser.parse_args()
+    check_modules()
     options.out.mkdir(parents=True, exist_ok=True)
     seeds = [s for s in range(options.first, options.first + options.count) if not is_made(s, options)]
     context = multiprocessing.get_context("spawn")
