@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "opencl/address_space.h"
+#include "opencl/affinity.h"
 #include "opencl/drivers.h"
 #include "opencl/kernel_cache.h"
 #include "opencl/kernel_source.h"
@@ -74,6 +75,7 @@ std::vector<cl::Device> all_devices() {
   static std::once_flag started;
   std::call_once(started, check_address_space_to_start);  // once more where it throws
   prepare_kernel_cache();
+  keep_driver_threads_apart();
   std::vector<cl::Device> result;
   try {
     std::vector<cl::Platform> platforms;

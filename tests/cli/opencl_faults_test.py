@@ -68,6 +68,30 @@ class OpenClFaults(unittest.TestCase):
         self.expect(run(EXAMPLE, "-o", self.output, "--backend=auto", *loud, OCL_ICD_VENDORS=self.folder / "none"), 0,
                     "backend cpu (no OpenCL")
 
+    def processors_of_threads(self, processors):
+        """The processors on which each thread may run, in text, of a run that itself may run on these."""
+        found = set()
+        with subprocess.Popen([RPF, "bench", "frames", EXAMPLE, "--rounds", "8", "--set", "--backend opencl --preset fast"],
+                              stdout=subprocess.DEVNULL, env={k: v for k, v in os.environ.items() if k != "POCL_AFFINITY"},
+                              preexec_fn=lambda: os.sched_setaffinity(0, processors)) as running:
+            while running.poll() is None:
+                for status in Path(f"/proc/{running.pid}/task").glob("*/status"):
+                    try:
+                        found |= {line.split()[1] for line in status.read_text().splitlines() if line.startswith("Cpus_allowed_list")}
+                    except OSError:  # that thread has ended
+                        pass
+                time.sleep(0.01)
+            self.assertEqual(running.returncode, 0)
+        return found
+
+    def test_driver_threads_stay_where_the_process_may_run(self):
+        all_processors = os.sched_getaffinity(0)
+        if len(all_processors) != os.cpu_count() or len(all_processors) < 2 or "Portable Computing" not in run("devices").stdout:
+            self.skipTest("needs PoCL, and two processors or more")
+        last = max(all_processors)
+        self.assertEqual(self.processors_of_threads({last}), {str(last)})
+        self.assertLessEqual({"0", str(last)}, self.processors_of_threads(all_processors))
+
     def test_device_by_index_and_name(self):
         self.expect(run("devices"), 0, "keeps the numeric contract")
         name = run("devices").stdout.split()[1]
