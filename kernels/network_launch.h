@@ -42,7 +42,7 @@ typedef struct {
 typedef struct {
   int width, height;  // of the level, cells
   int first, end;
-  int part;  // cells of a part, a multiple of 16
+  int part;  // cells of a part, a multiple of 16 where they are computed side by side
 } rpf_area;
 
 RPF_INLINE int rpf_parts_of_row(const rpf_area* area) { return (area->width + area->part - 1) / area->part; }

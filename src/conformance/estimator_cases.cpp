@@ -97,6 +97,11 @@ void add_windows(EstimatorCases& list) {
     c.options.height = 70;
     c.settings.crop = Window{30, 25, 11, 7};
   });
+  list.add("crop/wide", [](ConformanceCase& c) {  // its window is narrower than the frame
+    c.options.width = 700;
+    c.options.height = 3;
+    c.settings.crop = Window{350, 1, 3, 1};
+  });
   list.add("crop/corner", [](ConformanceCase& c) { c.settings.crop = Window{20, 12, 5, 6}; });
   for (const auto& [name, change] : extremes()) {
     ConformanceCase c = EstimatorCases::basic();

@@ -1,6 +1,7 @@
 #include "opencl/estimate_run.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include "rpf_network.h"
@@ -157,12 +158,21 @@ std::vector<float> EstimateRun::run(int x, int width, const EstimateProgress& pr
   try {
     make(progress);
   } catch (...) {
-    session_.finish();  // of what was asked for, all that it reads and writes must last
+    abandon();
     throw;
   }
   session_.read_back(result_, 0, bytes, pixels.data());
   result_ = {};
   return pixels;
+}
+
+// What was asked for reads and writes what is about to go.
+void EstimateRun::abandon() {
+  try {
+    session_.finish();
+  } catch (const std::exception&) {  // a device that is lost: what stopped the run is told, not this
+  }
+  result_ = {};
 }
 
 void EstimateRun::make(const EstimateProgress& progress) {

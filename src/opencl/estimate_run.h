@@ -33,6 +33,7 @@ class EstimateRun {
   void run_finish(const EstimateStep& step, int first, int end);
   /// Makes the picture in result_.
   void make(const EstimateProgress& progress);
+  void abandon();
   template <typename... Values>
   void launch(cl::Kernel& kernel, const Values&... values);
   kernel::rpf_area area(const EstimateStep& step, int first, int end) const;

@@ -7,8 +7,11 @@
 namespace rpf {
 namespace {
 
-/// A launch cannot be stopped: some hundredths of a second.
+/// A launch cannot be stopped: some hundredths of a second, but for a pixel that has more.
 constexpr std::uint64_t samples_of_launch = 1 << 20;
+
+/// Enough work for a work-item, and little enough that many have some.
+constexpr std::uint64_t samples_of_part = 4096;
 
 int column_of(const EstimatePlan& plan, int input) { return plan.column[static_cast<std::size_t>(input)]; }
 
@@ -95,26 +98,38 @@ int SampleStage::bring(int first, int end, bool again) {
   return job_.frame.bring(job_.window.y + first, job_.window.y + end, again) - job_.window.y;
 }
 
-std::uint32_t SampleStage::samples_of_part(const kernel::rpf_area& area, int part) const {
+std::uint32_t SampleStage::samples_in(const kernel::rpf_area& area, int part) const {
   const int parts = kernel::rpf_parts_of_row(&area), row = area.first + part / parts, begin = part % parts * area.part;
   return first_sample(row, std::min(begin + area.part, area.width)) - first_sample(row, begin);
 }
 
 int SampleStage::end_of_launch(const kernel::rpf_area& area, int first) const {
   const int parts = kernel::rpf_parts_of_row(&area) * (area.end - area.first);
-  std::uint64_t samples = samples_of_part(area, first++);
-  while (first < parts && samples + samples_of_part(area, first) <= samples_of_launch)
-    samples += samples_of_part(area, first++);
+  if (trace_ != nullptr) return parts;
+  std::uint64_t samples = samples_in(area, first++);
+  while (first < parts && samples + samples_in(area, first) <= samples_of_launch) samples += samples_in(area, first++);
   return first;
+}
+
+/// The rows with parts as their samples ask for.
+kernel::rpf_area SampleStage::in_parts(kernel::rpf_area rows) const {
+  std::uint64_t samples = 0;
+  for (int row = rows.first; row < rows.end; ++row) samples += first_sample(row, rows.width) - first_sample(row, 0);
+  const std::uint64_t pixels =
+                          static_cast<std::uint64_t>(rows.width) * static_cast<std::uint64_t>(rows.end - rows.first),
+                      fitting = samples_of_part * pixels / std::max<std::uint64_t>(samples, 1);
+  rows.part = static_cast<int>(std::clamp<std::uint64_t>(fitting, 1, static_cast<std::uint64_t>(rows.part)));
+  return rows;
 }
 
 void SampleStage::for_launches(const kernel::rpf_area& rows, bool again, const Progress& progress,
                                const Launch& launch) {
-  const int parts_of_row = kernel::rpf_parts_of_row(&rows), all = parts_of_row * (rows.end - rows.first);
-  kernel::rpf_area area = rows;
+  kernel::rpf_area area = in_parts(rows);
+  const int parts_of_row = kernel::rpf_parts_of_row(&area), all = parts_of_row * (rows.end - rows.first);
   for (int row = rows.first; row < rows.end; row = area.end) {
     area.first = row;
-    area.end = bring(row, rows.end, again);
+    // What is traced is copied as it lies: of a window, only a row's samples lie side by side.
+    area.end = bring(row, trace_ == nullptr ? rows.end : row + 1, again);
     Rows there = rows_of(area);
     const int parts = parts_of_row * (area.end - area.first);
     for (int part = 0; part < parts; part = there.launch.end_part) {
@@ -159,7 +174,7 @@ void SampleStage::sum(const kernel::rpf_area& area, const DeviceGrid& heads, con
   });
 }
 
-// Traced frames are small: a launch has all samples of its rows.
+// A launch has all samples of its row.
 cl::Buffer SampleStage::trace_of(const Rows& rows, std::size_t floats) const {
   if (trace_ == nullptr) return {};
   return session_.buffer(std::max<std::size_t>(rows.launch.samples * floats, 1) * sizeof(float));

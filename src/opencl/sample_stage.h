@@ -61,7 +61,8 @@ class SampleStage {
   void for_launches(const kernel::rpf_area& rows, bool again, const Progress& progress, const Launch& launch);
   /// The end of the parts from `first` on that are one launch.
   int end_of_launch(const kernel::rpf_area& area, int first) const;
-  std::uint32_t samples_of_part(const kernel::rpf_area& area, int part) const;
+  std::uint32_t samples_in(const kernel::rpf_area& area, int part) const;
+  kernel::rpf_area in_parts(kernel::rpf_area rows) const;
   /// A kernel that begins with what is computed of samples, and their features.
   template <typename... More>
   void launch_on_samples(cl::Kernel& kernel, const Rows& rows, const More&... more);

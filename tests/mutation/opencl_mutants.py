@@ -95,6 +95,8 @@ MUTANTS = [
            "rows[RPF_SEEN_INPUTS + RPF_INPUT_BRIGHTNESS + i] = rpf_brightness(color * 1.000001f);", LEARNED + "inputs", "another color"),
     Mutant("cl_records", LAYERS, "r{}[columns[j]]", "r{}[columns[j] - 1]", LEARNED + "sample1", "the column before"),
     Mutant("cl_moments", PIXELS, "m->squares = fma(d, d, m->squares);", "m->squares += d * d;", LEARNED + "pixel", "two roundings"),
+    Mutant("cl_traced_rows", "src/opencl/sample_stage.cpp", "bring(row, trace_ == nullptr ? rows.end : row + 1, again)", "bring(row, rows.end, again)",
+           "conformance learned/crop/wide inputs", "samples beside the window are traced"),
     Mutant("cl_stretch", SAMPLES, "stretch.begins = first_of_pixel(part, x) == sample;", "stretch.begins = true;", MANY + "pixel",
            "a pixel begins anew with every row of samples"),
     Mutant("cl_stretch_sums", SUMS, "PixelSums sums = stretch->begins ? no_sums() : *pixel;", "PixelSums sums = no_sums();", MANY + "sums",
