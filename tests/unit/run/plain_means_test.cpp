@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 namespace rpf {
 namespace {
 
@@ -27,15 +30,21 @@ TEST(OwnShare, HasNoUnitOfRadiance) {
   EXPECT_EQ(own_share(180, result, mean, 1.0F / 256), own_share(180, of_one, apart, 1));
 }
 
-TEST(PlainMeans, CountSamplesByTheirWeights) {
+/// Of one row, without samples yet; all but its last pixels are in the crop.
+PreparedFrame row_of(std::vector<std::uint32_t> first_sample, int crop_width, std::size_t carried) {
   PreparedFrame prepared;
+  prepared.facts.width = prepared.frame.width = static_cast<int>(first_sample.size()) - 1;
+  prepared.facts.height = prepared.frame.height = 1;
+  prepared.facts.carried = carried;
+  prepared.facts.crop = {0, 0, crop_width, 1};
+  prepared.frame.variables = 3;
+  prepared.frame.first_sample = std::move(first_sample);
+  return prepared;
+}
+
+TEST(PlainMeans, CountSamplesByTheirWeights) {
+  PreparedFrame prepared = row_of({0, 400}, 1, 3);
   Frame& frame = prepared.frame;
-  prepared.facts.width = frame.width = 1;
-  prepared.facts.height = frame.height = 1;
-  prepared.facts.carried = 3;
-  prepared.facts.crop = {0, 0, 1, 1};
-  frame.variables = 3;
-  frame.first_sample = {0, 400};
   frame.records.assign(1200, 1);
   for (int i = 0; i < 400; ++i) frame.weights.push_back(i < 90 ? 3.0F : i < 180 ? 1.0F : 0.0F);
   PlainMeans means(prepared, 2);
@@ -48,14 +57,8 @@ TEST(PlainMeans, CountSamplesByTheirWeights) {
 }
 
 TEST(PlainMeans, AreDrawnToWherePixelsHaveManySamplesInTheCrop) {
-  PreparedFrame prepared;
+  PreparedFrame prepared = row_of({0, 2, 182, 364}, 2, 4);  // 2, 180, 182 samples
   Frame& frame = prepared.frame;
-  prepared.facts.width = frame.width = 3;
-  prepared.facts.height = frame.height = 1;
-  prepared.facts.carried = 4;
-  prepared.facts.crop = {0, 0, 2, 1};
-  frame.variables = 3;
-  frame.first_sample = {0, 2, 182, 364};  // 2, 180, 182 samples
   for (int i = 0; i < 364; ++i) {
     frame.records.insert(frame.records.end(), {i % 2 == 0 ? 0.0F : 2.0F, 1, 1});
     frame.others.push_back(i % 2 == 0 ? 3.0F : 5.0F);
