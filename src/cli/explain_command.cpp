@@ -87,6 +87,7 @@ ExplainedEstimate estimate_of(const Options& o, const Settings& published, const
                               const PixelPosition& pixel, const Control& control) {
   Settings settings = preset_settings(o.preset);
   settings.backend = published.backend;
+  settings.device = published.device;
   settings.threads = published.threads;
   settings.max_memory = published.max_memory;
   SampleReadOptions read_options = read_options_of(o.filter, settings);
@@ -129,6 +130,7 @@ int run(const Options& o) {
       progress, [&](const Control& control) { return explain(std::move(samples), settings, control, pixel); });
   write_pages(o, explanation, estimate);
   if (!o.filter.quiet) print_notes(explanation.report);
+  if (!o.filter.quiet && settings.backend == "auto") print("backend {}\n", explanation.report.backend);
   if (!o.filter.quiet)
     print("{}: {} layers of {}x{} pixels in {:.1f} s\n", (fs::path(o.filter.output) / "index.html").string(),
           explanation.layers.channel_count(), info.data_window.width, info.data_window.height,
