@@ -67,7 +67,7 @@ class OpenClFaults(unittest.TestCase):
         self.expect_same_bits()
         nowhere = {"OCL_ICD_VENDORS": self.folder / "none"}
         self.expect(run(EXAMPLE, "-o", self.output, "--backend=auto", *loud, **nowhere), 0, "backend cpu (no OpenCL")
-        self.expect(run("explain", EXAMPLE, "-o", self.folder / "explained", "--box", "5", **nowhere), 0, "backend cpu (no OpenCL")
+        self.expect(run("explain", EXAMPLE, "-o", self.folder / "explained", "--backend=auto", **nowhere), 0, "backend cpu (no OpenCL")
 
     def processors_of_threads(self, processors):
         """The processors on which each thread may run, in text, of a run that itself may run on these."""
