@@ -98,7 +98,7 @@ class SequenceTest(CommandCase):
             self.expect(run(self.frame(1, "in"), "-o", self.frame(1), option, self.output), 2, option, "is one file")
         self.expect(run(self.folder / "in.##.##.exr", "-o", self.output), 2, "2 places")
         self.expect(run(self.folder / "none.####.exr", "-o", self.output), 3, "none.####.exr", "--frames")
-        self.expect(self.filter("--log-json", self.folder / "no" / "log"), 4, "--log-json")
+        self.expect(self.filter("--log-json", self.folder / "no" / "log"), 4, "/no/log", "make the folder first")
         self.assertEqual(self.made(), [])
 
     def test_no_result_is_a_file_of_another_frame(self):
