@@ -67,7 +67,8 @@ void mean_of_pixel(const Frame& frame, std::size_t pixel, std::size_t carried, d
   std::fill_n(mean, carried, 0.0);
   for (std::uint32_t i = frame.first_sample[pixel]; i < frame.first_sample[pixel + 1]; ++i) {
     const float *color = frame.record(i), *other = frame.others.data() + (i - frame.first_record) * (carried - 3);
-    for (std::size_t c = 0; c < carried; ++c) mean[c] += weights.of(i) * (c < 3 ? color[c] : other[c - 3]);
+    const double weight = weights.of(i);
+    for (std::size_t c = 0; c < carried; ++c) mean[c] += weight * (c < 3 ? color[c] : other[c - 3]);
   }
   for (std::size_t c = 0; weights.total() > 0 && c < carried; ++c) mean[c] /= weights.total();
 }

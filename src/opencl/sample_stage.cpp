@@ -51,7 +51,7 @@ SampleStage::SampleStage(Session& session, const NetworkProgram& program, const 
       guide_columns_(session.copy(guide_columns(job.plan))),
       base_columns_(session.copy(base_columns(job.plan))) {}
 
-std::uint32_t SampleStage::first_sample(int row, int column) const {
+const std::uint32_t& SampleStage::first_sample(int row, int column) const {
   const Window& w = job_.window;
   return job_.frame.first_sample[static_cast<std::size_t>(w.y + row) * static_cast<std::size_t>(job_.frame.width) +
                                  static_cast<std::size_t>(w.x + column)];
@@ -72,10 +72,7 @@ SampleStage::Rows SampleStage::rows_of(const kernel::rpf_area& area) const {
             shared(frame.record(from), count * frame.variables),
             shared(frame.others.data() + record * others, count * others),
             frame.weights.empty() ? cl::Buffer() : shared(frame.weights.data() + record, count),
-            shared(&job_.frame.first_sample[static_cast<std::size_t>(job_.window.y + area.first) *
-                                                static_cast<std::size_t>(frame.width) +
-                                            static_cast<std::size_t>(job_.window.x)],
-                   entries)};
+            shared(&first_sample(area.first, 0), entries)};
   kernel::rpf_samples& l = rows.launch;
   l.area = area;
   l.frame_width = frame.width;

@@ -52,7 +52,8 @@ class SampleStage {
   };
   using Launch = std::function<void(const Rows&)>;
 
-  std::uint32_t first_sample(int row, int column) const;
+  /// Of a pixel of the window; those behind it follow.
+  const std::uint32_t& first_sample(int row, int column) const;
   /// Rows area.first .. area.end - 1 of the window, whose samples are there.
   Rows rows_of(const kernel::rpf_area& area) const;
   /// Has the samples of rows first .. end - 1 of the window be there, or of the first of these: Frame::bring().

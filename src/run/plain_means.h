@@ -37,13 +37,13 @@ class PlainMeans {
   void draw_to_means(Pixels& pixels, float exposure) const;
 
  private:
-  /// Of some rows; energy is summed row by row, so that threads do not change it.
+  /// Of one row, or of all: energy is summed row by row, so that threads do not change it.
   struct Part {
     Pixels means;                   ///< [pixel that needs it][carried]
     std::vector<double> effective;  ///< [pixel that needs it] samples
     double energy = 0;
   };
-  Part part_of(int first, int end) const;
+  Part part_of(int row) const;
 
   const PreparedFrame& prepared_;
   int threads_;
