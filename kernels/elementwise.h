@@ -41,8 +41,7 @@ RPF_INLINE RPF_REAL rpf_lanes_total(const RPF_SUMS* sum) {
 // exactly 1. x = n ln 2 + r with |r| <= ln 2 / 2; ln 2 in two parts so that n * hi is exact; Taylor-like minimax
 // polynomial in r (the coefficients of Cephes' expf, S. Moshier).
 RPF_INLINE RPF_REAL rpf_exp(RPF_REAL x) {
-  const RPF_INT representable = x >= RPF_EXP_UNDERFLOW;
-  const RPF_REAL y = representable ? x : RPF_EXP_UNDERFLOW;
+  const RPF_REAL y = x >= RPF_EXP_UNDERFLOW ? x : -88.0f;  // whose n is -127: the last factor is 0
   const RPF_REAL shifted = y * 1.44269504f + 12582912.0f;  // 1.5 * 2^23: the sum's last bit has the value 1
   const RPF_REAL n = shifted - 12582912.0f;
   const RPF_REAL r = (y - n * 0.693359375f) - n * -2.12194440e-4f;
@@ -53,8 +52,7 @@ RPF_INLINE RPF_REAL rpf_exp(RPF_REAL x) {
   p = p * r + 1.6666665459e-1f;
   p = p * r + 5.0000001201e-1f;
   p = p * (r * r) + r;
-  const RPF_REAL result = (p + 1.0f) * RPF_AS_REAL((RPF_TO_INT(n) + 127) << 23);
-  return representable ? result : 0.0f;
+  return (p + 1.0f) * RPF_AS_REAL((RPF_TO_INT(n) + 127) << 23);
 }
 
 // ---- random numbers -------------------------------------------------------------------------------------------------

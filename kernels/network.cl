@@ -30,15 +30,20 @@
 
 static size_t row_at(const rpf_grid* grid, int y) { return (size_t)(y % grid->rows) * (size_t)grid->pitch; }
 
-// A work-item takes the parts first_part(), first_part() + get_global_size(0) ... before end_part().
-static int first_part(void) { return (int)get_global_id(0); }
+// Parts of an area one below the other, column after column of parts: a work-item takes some that lie together, so that
+// what it reads around them is mostly its own.
+static int row_of_part(const rpf_area* area, int i) { return area->first + i % (area->end - area->first); }
+static int begin_of_part(const rpf_area* area, int i) { return i / (area->end - area->first) * area->part; }
+static int end_of_part(const rpf_area* area, int i) { return min(begin_of_part(area, i) + area->part, area->width); }
+
+// Of `parts` the work-item takes those from here on, up to where the next one begins.
+static int share_of(int parts, size_t item) { return (int)((size_t)parts * item / get_global_size(0)); }
 // No row: no parts either, whatever the rest of the area is; a rehearsal (src/opencl) hands over zeros.
-static int end_part(const rpf_area* area) {
+static int parts_of(const rpf_area* area) {
   return area->first < area->end ? (area->end - area->first) * rpf_parts_of_row(area) : 0;
 }
-static int row_of_part(const rpf_area* area, int i) { return area->first + i / rpf_parts_of_row(area); }
-static int begin_of_part(const rpf_area* area, int i) { return i % rpf_parts_of_row(area) * area->part; }
-static int end_of_part(const rpf_area* area, int i) { return min(begin_of_part(area, i) + area->part, area->width); }
+static int first_part(const rpf_area* area) { return share_of(parts_of(area), get_global_id(0)); }
+static int end_part(const rpf_area* area) { return share_of(parts_of(area), get_global_id(0) + 1); }
 
 // Repeats the edge beside a row of cells, where begin .. end - 1 touches it.
 static void close_row(__global float* line, int stride, int begin, int end, int width) {
@@ -57,6 +62,15 @@ static void close_planes(__global float* row, int plane, int planes, int begin, 
   }
 }
 
+// Has the line of memory around an address on its way into the caches; there may be nothing.
+static void ask_for(__global const float* address) {
+#ifdef RPF_AVX2  // Oclgrind does not know prefetches
+  __builtin_prefetch((const void*)(size_t)address);
+#else
+  (void)address;
+#endif
+}
+
 #include "transpose.cl"
 
 #include "network_samples.cl"
@@ -73,7 +87,7 @@ static void close_planes(__global float* row, int plane, int planes, int begin, 
 // read.
 __kernel void halve(__global const float* in, __global float* out, const rpf_area area, const rpf_grid fine,
                     const rpf_grid coarse, const int fine_width, const int fine_height, const int stride) {
-  for (int i = first_part(); i < end_part(&area); i += (int)get_global_size(0)) {
+  for (int i = first_part(&area), last = end_part(&area); i < last; ++i) {
     const int y = row_of_part(&area, i), begin = begin_of_part(&area, i), end = end_of_part(&area, i);
     const int rows = min(fine_height - 2 * y, 2);
     __global const float* upper = in + row_at(&fine, 2 * y) + RPF_BORDER * stride;

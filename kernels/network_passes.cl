@@ -41,7 +41,7 @@ __kernel void embed(__global const float* cells, __global const float* guides, _
                     const int cell_stride, const int embedding) {
   const int plane = plane_of(&grid, embedding + RPF_GUIDES + 1), guide_plane = plane_of(&guide_grid, RPF_GUIDES);
   const int logit_plane = plane_of(&logit_grid, RPF_PASS_VALUES);
-  for (int i = first_part(); i < end_part(&area); i += (int)get_global_size(0)) {
+  for (int i = first_part(&area), last = end_part(&area); i < last; ++i) {
     const int y = row_of_part(&area, i), begin = begin_of_part(&area, i), end = end_of_part(&area, i);
     __global const float* line = cells + row_at(&cell_grid, y) + RPF_BORDER * cell_stride;
     __global const float* guide = guides + row_at(&guide_grid, y) + RPF_MARGIN;
@@ -68,6 +68,7 @@ static void weigh_row(__global const float* own, __global const float* other, in
   for (int k = 0; k < terms; ++k) {
     __global const float* o = other + k * plane;
     const float16 e = vload16(0, own + k * plane);
+    ask_for(o + RPF_PASS_REACH * dilation + 2 * RPF_LANES);  // the last that the next pixels read
     const float16 t0 = e - vload16(0, o - 2 * dilation), t1 = e - vload16(0, o - dilation), t2 = e - vload16(0, o),
                   t3 = e - vload16(0, o + dilation), t4 = e - vload16(0, o + 2 * dilation);
     d0 = fma(t0, t0, d0);
@@ -103,7 +104,7 @@ static void weigh_own_row(__global const float* own, int terms, int plane, int d
 __kernel void weigh_pixels(__global const float* embedded, __global float* weights, const rpf_area area,
                            const rpf_grid embedded_grid, const rpf_grid grid, const int dilation, const int terms) {
   const int plane = plane_of(&embedded_grid, terms + 1), weight_plane = plane_of(&grid, RPF_PASS_PAIRS + 1);
-  for (int i = first_part(); i < end_part(&area); i += (int)get_global_size(0)) {
+  for (int i = first_part(&area), last = end_part(&area); i < last; ++i) {
     const int y = row_of_part(&area, i), begin = begin_of_part(&area, i), end = end_of_part(&area, i);
     __global float* row = weights + row_at(&grid, y);
     for (int x = begin; x < end; x += RPF_LANES) {
@@ -119,58 +120,69 @@ __kernel void weigh_pixels(__global const float* embedded, __global float* weigh
   }
 }
 
-// Weights of RPF_LANES pixels with those at five places of a row that is j - RPF_PASS_REACH rows (times the dilation)
-// further on. `own`, `other`: what weigh_pixels() made of the pixels and of those right above or below them.
-static void load_row(__global const float* own, __global const float* other, int j, int plane, int dilation,
-                     float16* weights) {
-  for (int t = 0; t < RPF_TAPS; ++t) {
-    const int right = t - RPF_PASS_REACH, from = (j - RPF_PASS_REACH) * RPF_TAPS + right;  // 1, 2, 3 .. 12 further on
-    weights[t] = from > 0   ? vload16(0, own + (from - 1) * plane)
-                 : from < 0 ? vload16(0, other + (-from - 1) * plane + right * dilation)
-                            : vload16(0, own + RPF_PASS_PAIRS * plane);
-  }
+// What a pass reads for RPF_LANES pixels of row y: weights, values and how far their planes lie apart.
+typedef struct {
+  __global const float *weights, *in;  // row 0, at the pixels
+  int y, plane, in_plane;
+} PassInput;
+
+// Weight of the pixels with those at tap t of row j. `own`, `other`: what weigh_pixels() made of them and of those
+// right above.
+static float16 weight_at(__global const float* own, __global const float* other, int j, int t, int plane,
+                         int dilation) {
+  const int right = t - RPF_PASS_REACH, from = (j - RPF_PASS_REACH) * RPF_TAPS + right;  // 1, 2, 3 .. 12 further on
+  return vload16(0, from > 0   ? own + (from - 1) * plane
+                    : from < 0 ? other + (-from - 1) * plane + right * dilation
+                               : own + RPF_PASS_PAIRS * plane);
 }
 
-// Adds five weighted values of a row to a sum.
-static float16 add_row(float16 sum, const float16* w, __global const float* value, int dilation) {
-  sum = fma(w[0], vload16(0, value - 2 * dilation), sum);
-  sum = fma(w[1], vload16(0, value - dilation), sum);
-  sum = fma(w[2], vload16(0, value), sum);
-  sum = fma(w[3], vload16(0, value + dilation), sum);
-  return fma(w[4], vload16(0, value + 2 * dilation), sum);
+// Means of the planes first .. first + count - 1, side by side so that multiply-adds do not wait for each other.
+// `count` is known when this is compiled.
+__attribute__((always_inline)) static void filter_planes(const PassInput* from, const rpf_network_pass* p, int first,
+                                                         const int count, __global float* out) {
+  __global const float* own = from->weights + row_at(&p->weights, from->y);
+  float16 total = 0.0f, sums[RPF_SUM_OTHERS];
+#pragma unroll
+  for (int k = 0; k < count; ++k) sums[k] = 0.0f;
+#pragma nounroll  // it would take seconds to compile
+  for (int j = 0; j < RPF_TAPS; ++j) {
+    const int row = from->y + (j - RPF_PASS_REACH) * p->dilation;
+    if (row < 0 || row >= p->area.height) continue;
+    __global const float* other = from->weights + row_at(&p->weights, min(row, from->y));
+    __global const float* values = from->in + row_at(&p->in, row) + first * from->in_plane;
+#pragma unroll
+    for (int t = 0; t < RPF_TAPS; ++t) {
+      const float16 w = weight_at(own, other, j, t, from->plane, p->dilation);
+      total += w;
+#pragma unroll
+      for (int k = 0; k < count; ++k)
+        sums[k] = fma(w, vload16(0, values + k * from->in_plane + (t - RPF_PASS_REACH) * p->dilation), sums[k]);
+    }
+  }
+  const float16 inverse = 1.0f / total;
+#pragma unroll
+  for (int k = 0; k < count; ++k) vstore16(sums[k] * inverse, 0, out + (first + k) * from->in_plane);
 }
 
 __kernel void filter_pass(__global const float* weights, __global const float* in, __global float* out,
                           const rpf_network_pass p) {
-  const int plane = plane_of(&p.weights, RPF_PASS_PAIRS + 1), in_plane = plane_of(&p.in, p.values);
-  for (int i = first_part(); i < end_part(&p.area); i += (int)get_global_size(0)) {
-    const int y = row_of_part(&p.area, i), begin = begin_of_part(&p.area, i), end = end_of_part(&p.area, i);
-    // Rows of taps that are there: first_tap .. end_tap - 1 of five.
-    const int first_tap = max(0, RPF_PASS_REACH - y / p.dilation);
-    const int end_tap = min(RPF_TAPS, RPF_PASS_REACH + (p.area.height - 1 - y) / p.dilation + 1);
-    const int first_y = y + (first_tap - RPF_PASS_REACH) * p.dilation;
-    __global float* result = out + row_at(&p.out, y);
+  PassInput from;
+  from.plane = plane_of(&p.weights, RPF_PASS_PAIRS + 1);
+  from.in_plane = plane_of(&p.in, p.values);
+  for (int i = first_part(&p.area), last = end_part(&p.area); i < last; ++i) {
+    const int begin = begin_of_part(&p.area, i), end = end_of_part(&p.area, i);
+    from.y = row_of_part(&p.area, i);
+    __global float* result = out + row_at(&p.out, from.y);
     for (int x = begin; x < end; x += RPF_LANES) {
-      __global const float* own = weights + row_at(&p.weights, y) + RPF_PLACES(x);
-      float16 w[RPF_TAPS * RPF_TAPS], total = 0.0f;
-      for (int j = first_tap; j < end_tap; ++j) {
-        // Of rows below nothing is read here, and they may not be there.
-        const int other = min(first_y + (j - first_tap) * p.dilation, y);
-        float16* row = w + RPF_TAPS * j;
-        load_row(own, weights + row_at(&p.weights, other) + RPF_PLACES(x), j, plane, p.dilation, row);
-        for (int t = 0; t < RPF_TAPS; ++t) total += row[t];
-      }
-      const float16 inverse = 1.0f / total;
-      for (int k = 0; k < p.values; ++k) {
-        float16 sum = 0.0f;
-        for (int j = first_tap; j < end_tap; ++j)
-          sum = add_row(sum, w + RPF_TAPS * j,
-                        in + row_at(&p.in, first_y + (j - first_tap) * p.dilation) + k * in_plane + RPF_PLACES(x),
-                        p.dilation);
-        vstore16(sum * inverse, 0, result + k * in_plane + RPF_PLACES(x));
-      }
+      from.weights = weights + RPF_PLACES(x);
+      from.in = in + RPF_PLACES(x);
+      __global float* to = result + RPF_PLACES(x);
+      int k = 0;
+      for (; k + RPF_SUM_OTHERS <= p.values; k += RPF_SUM_OTHERS) filter_planes(&from, &p, k, RPF_SUM_OTHERS, to);
+      for (; k + RPF_ALBEDO_SUMS <= p.values; k += RPF_ALBEDO_SUMS) filter_planes(&from, &p, k, RPF_ALBEDO_SUMS, to);
+      for (; k < p.values; ++k) filter_planes(&from, &p, k, 1, to);
     }
-    close_planes(result, in_plane, p.values, begin, end, p.area.width, -0.0f);
+    close_planes(result, from.in_plane, p.values, begin, end, p.area.width, -0.0f);
   }
 }
 
@@ -182,7 +194,7 @@ __kernel void finish(__global const float* sums, __global const float* albedo, _
                      const int has_albedo) {
   const int plane = plane_of(&sum_grid, (int)rpf_sums((uint)carried));
   const int albedo_plane = plane_of(&albedo_grid, RPF_ALBEDO_SUMS);
-  for (int i = first_part(); i < end_part(&area); i += (int)get_global_size(0)) {
+  for (int i = first_part(&area), last = end_part(&area); i < last; ++i) {
     const int y = row_of_part(&area, i), begin = begin_of_part(&area, i), end = end_of_part(&area, i);
     __global const float* blends = heads + row_at(&head_grid, y) + RPF_BORDER * head_stride + RPF_HEAD_BLEND;
     __global float* row = out + (size_t)(y - region.y) * (size_t)region.width * (size_t)carried;

@@ -39,8 +39,7 @@ typedef struct {
 } PixelMoments;
 
 // The first sample of a pixel counts as 0 everywhere: it is left out.
-static void add_stretch(const Seeing* of, const rpf_samples* l, const Samples* samples, const Stretch* stretch,
-                        PixelMoments* pixel) {
+static void add_stretch(const Samples* samples, const Stretch* stretch, PixelMoments* pixel) {
   for (uint v = 0; v < RPF_FEATURE_VECTORS; ++v) {
     const float* values = samples->features + v * RPF_LANES;
     Moments m =
@@ -50,78 +49,106 @@ static void add_stretch(const Seeing* of, const rpf_samples* l, const Samples* s
     pixel->features[v] = m;
   }
   Moments seen = stretch->begins ? moments_from(vload16(stretch->from, samples->seen)) : pixel->seen;
-  Moments records =
-      stretch->begins ? moments_from(begin_of_record(of->records, l, samples->first + stretch->from)) : pixel->records;
+  Moments records = stretch->begins ? moments_from(vload16(stretch->from, samples->records)) : pixel->records;
   for (uint s = stretch->from + stretch->begins; s < stretch->to; ++s) {
     add_to_moments(&seen, vload16(s, samples->seen));
-    add_to_moments(&records, begin_of_record(of->records, l, samples->first + s));
+    add_to_moments(&records, vload16(s, samples->records));
   }
   pixel->seen = seen;
   pixel->records = records;
 }
 
-static float16 mean_of(const Moments* m, float samples) { return rpf_shifted_mean(m->first, m->sum, samples); }
-static float16 variance_of(const Moments* m, float samples) {
-  return rpf_shifted_variance(m->sum, m->squares, samples);
+static float16 mean_of(const Moments* m, float share) { return rpf_shifted_mean(m->first, m->sum, share); }
+static float16 variance_of(const Moments* m, float share) { return rpf_shifted_variance(m->sum, m->squares, share); }
+
+// Pixels side by side in a row whose statistics are made at once: `count` of them, at most RPF_LANES, from x on. In the
+// lanes behind them is whatever was there before.
+typedef struct {
+  int x, count;
+  float16 seen[RPF_LANES], records[RPF_LANES], spreads[RPF_LANES];  // means, means, variances of the records
+  float luminances[RPF_LANES], samples[RPF_LANES];                  // variances; counts
+} Batch;
+
+// Means and deviations of the features. What is stored beyond them is written over by what comes next.
+static void finish_features(const PixelMoments* pixel, float share, __global float* cell) {
+  for (uint v = 0; v < RPF_FEATURE_VECTORS; ++v) vstore16(mean_of(&pixel->features[v], share), v, cell);
+  for (uint v = 0; v < RPF_FEATURE_VECTORS; ++v)
+    vstore16(rpf_feature_deviation(variance_of(&pixel->features[v], share)), v, cell + RPF_SAMPLE_FEATURES);
 }
 
-// Means and deviations of the features.
-static void finish_features(const PixelMoments* pixel, float samples, __global float* cell) {
-  for (uint v = 0; v < RPF_FEATURE_VECTORS; ++v) {
-    float means[RPF_LANES], deviations[RPF_LANES];
-    vstore16(mean_of(&pixel->features[v], samples), 0, means);
-    vstore16(rpf_feature_deviation(variance_of(&pixel->features[v], samples)), 0, deviations);
-    for (uint k = 0; k < RPF_LANES && v * RPF_LANES + k < RPF_SAMPLE_FEATURES; ++k) {
-      cell[v * RPF_LANES + k] = means[k];
-      cell[RPF_SAMPLE_FEATURES + v * RPF_LANES + k] = deviations[k];
-    }
-  }
-}
+static float16 of_column(const float16* columns, int column) { return column < 0 ? 0.0f : columns[column]; }
 
-// Statistics of the radiance, and the mean of a.
-static void finish_color(const Moments* seen, float samples, const RowOut* out, int x, __global float* statistics) {
-  float mean[RPF_SEEN], variance[RPF_SEEN], brightness[RPF_SEEN];
-  const float16 means = mean_of(seen, samples);
-  vstore16(means, 0, mean);
-  vstore16(rpf_brightness(means), 0, brightness);
-  vstore16(variance_of(seen, samples), 0, variance);
-  for (int i = 0; i < 3; ++i) {
-    statistics[RPF_STATISTIC_BRIGHTNESS + i] = brightness[RPF_SEEN_COLOR + i];
-    out->albedo[i * out->albedo_plane + x] = mean[RPF_SEEN_BASE + i];
-  }
-  out->albedo[3 * out->albedo_plane + x] = 1.0f;
-  statistics[RPF_STATISTIC_ERROR] = rpf_relative_error(variance[RPF_SEEN_LUMINANCE], mean[RPF_SEEN_LUMINANCE], samples);
+// Of RPF_LANES pixels. `columns`: of the guides among the first values of records; -1 for a guide that is 0.
+static void find_statistics(Batch* batch, __global const int* columns, float16* statistics) {
+  const float16 samples = vload16(0, batch->samples);
+  transpose(batch->seen);
+  transpose(batch->records);
+  transpose(batch->spreads);
+  for (int i = 0; i < 3; ++i)
+    statistics[RPF_STATISTIC_BRIGHTNESS + i] = rpf_brightness(batch->seen[RPF_SEEN_COLOR + i]);
+  statistics[RPF_STATISTIC_ERROR] =
+      rpf_relative_error(vload16(0, batch->luminances), batch->seen[RPF_SEEN_LUMINANCE], samples);
+  for (int k = 0; k < RPF_GUIDES; ++k) statistics[RPF_STATISTIC_GUIDES + k] = of_column(batch->records, columns[k]);
+  for (int i = 0; i < 3; ++i)
+    statistics[RPF_STATISTIC_SPREADS + i] =
+        sqrt(of_column(batch->spreads, columns[3 * i]) + of_column(batch->spreads, columns[3 * i + 1]) +
+             of_column(batch->spreads, columns[3 * i + 2]));
   statistics[RPF_STATISTIC_SAMPLES] = 1.0f / sqrt(samples);
 }
 
-static float of_column(const float* values, int column) { return column < 0 ? 0.0f : values[column]; }
-
-// Means of the guides and their spreads. `columns`: among the first RPF_LANES values of records; -1 for a guide that
-// is 0.
-static void finish_guides(const Moments* records, __global const int* columns, float samples, const RowOut* out, int x,
-                          __global float* statistics) {
-  float mean[RPF_LANES], variance[RPF_LANES];
-  vstore16(mean_of(records, samples), 0, mean);
-  vstore16(variance_of(records, samples), 0, variance);
-  for (int k = 0; k < RPF_GUIDES; ++k) {
-    const float value = of_column(mean, columns[k]);
-    statistics[RPF_STATISTIC_GUIDES + k] = value;
-    out->guides[k * out->guides_plane + x] = value;
+// Stores the first `count` lanes.
+static void store_lanes(float16 values, int count, __global float* to) {
+  if (count == RPF_LANES) {
+    vstore16(values, 0, to);
+    return;
   }
-  for (int i = 0; i < 3; ++i)
-    statistics[RPF_STATISTIC_SPREADS + i] =
-        sqrt(of_column(variance, columns[3 * i]) + of_column(variance, columns[3 * i + 1]) +
-             of_column(variance, columns[3 * i + 2]));
+  float lanes[RPF_LANES];
+  vstore16(values, 0, lanes);
+  for (int i = 0; i < count; ++i) to[i] = lanes[i];
 }
 
-static void finish_pixel(const PixelMoments* pixel, __global const int* guide_columns, uint count, const RowOut* out,
-                         int x) {
-  const float samples = (float)count;
-  __global float* cell = out->cells + x * out->cell_stride;
-  __global float* statistics = cell + 2 * RPF_SAMPLE_FEATURES;
-  finish_features(pixel, samples, cell);
-  finish_color(&pixel->seen, samples, out, x, statistics);
-  finish_guides(&pixel->records, guide_columns, samples, out, x, statistics);
+// Statistics, guides and albedo of the pixels at hand.
+static void finish_batch(Batch* batch, __global const int* guide_columns, const RowOut* out) {
+  float16 statistics[RPF_STATISTICS];
+  if (batch->count == 0) return;
+  find_statistics(batch, guide_columns, statistics);
+  for (int k = 0; k < RPF_GUIDES; ++k)
+    store_lanes(statistics[RPF_STATISTIC_GUIDES + k], batch->count, out->guides + k * out->guides_plane + batch->x);
+  for (int i = 0; i < RPF_ALBEDO_SUMS; ++i)
+    store_lanes(i < 3 ? batch->seen[RPF_SEEN_BASE + i] : 1.0f, batch->count,
+                out->albedo + i * out->albedo_plane + batch->x);
+  __global float* cell = out->cells + batch->x * out->cell_stride + 2 * RPF_SAMPLE_FEATURES;
+  float rest[(RPF_STATISTICS - RPF_LANES) * RPF_LANES];
+  for (int k = RPF_LANES; k < RPF_STATISTICS; ++k) vstore16(statistics[k], k - RPF_LANES, rest);
+  transpose(statistics);
+  for (int i = 0; i < batch->count; ++i, cell += out->cell_stride) {
+    vstore16(statistics[i], 0, cell);
+    for (int k = RPF_LANES; k < RPF_STATISTICS; ++k) cell[k] = rest[(k - RPF_LANES) * RPF_LANES + i];
+  }
+  batch->x += batch->count;
+  batch->count = 0;
+}
+
+static void finish_pixel(const PixelMoments* pixel, uint count, __global const int* guide_columns, const RowOut* out,
+                         int x, Batch* batch) {
+  const float samples = (float)count, share = 1.0f / samples;
+  finish_features(pixel, share, out->cells + x * out->cell_stride);
+  float variances[RPF_SEEN];
+  vstore16(variance_of(&pixel->seen, share), 0, variances);
+  const int i = batch->count++;
+  batch->seen[i] = mean_of(&pixel->seen, share);
+  batch->records[i] = mean_of(&pixel->records, share);
+  batch->spreads[i] = variance_of(&pixel->records, share);
+  batch->luminances[i] = variances[RPF_SEEN_LUMINANCE];
+  batch->samples[i] = samples;
+  if (batch->count == RPF_LANES) finish_batch(batch, guide_columns, out);
+}
+
+// Pixel x has no samples.
+static void leave_pixel(Batch* batch, __global const int* guide_columns, const RowOut* out, int x) {
+  finish_batch(batch, guide_columns, out);
+  batch->x = x + 1;
+  no_samples(out, x);
 }
 
 // Values, guides and albedo of pixels.
@@ -138,7 +165,9 @@ __kernel void see(__global const float* records, __global const int* base_column
   out.albedo_plane = plane_of(&albedo_grid, RPF_ALBEDO_SUMS);
   Samples samples;
   PixelMoments pixel;
-  for (int i = l.first_part + (int)get_global_id(0); i < l.end_part; i += (int)get_global_size(0)) {
+  Batch batch;
+  const int parts = l.end_part - l.first_part, end_of_share = l.first_part + share_of(parts, get_global_id(0) + 1);
+  for (int i = l.first_part + share_of(parts, get_global_id(0)); i < end_of_share; ++i) {
     const Part part = part_of_launch(first_sample, &l, i);
     __global float* albedo_row = albedo + row_at(&albedo_grid, part.y);
     out.cells = cells + row_at(&cell_grid, part.y) + RPF_BORDER * cell_stride;
@@ -146,20 +175,23 @@ __kernel void see(__global const float* records, __global const int* base_column
     out.albedo = albedo_row + RPF_MARGIN;
     close_planes(albedo_row, out.albedo_plane, RPF_ALBEDO_SUMS, part.begin, part.end, l.area.width, -0.0f);
     int x = part.begin;  // the first pixel that is not finished
+    batch.x = x;
+    batch.count = 0;
     const uint end = first_of_pixel(&part, part.end);
     for (uint first = first_of_pixel(&part, x); first < end; first += RPF_SAMPLES_AT_ONCE) {
       see_samples(&of, &l, first, min(end - first, (uint)RPF_SAMPLES_AT_ONCE), &samples);
       if (l.is_traced) keep_samples(&samples, trace);
       for (uint s = 0; s < samples.count;) {
         const Stretch stretch = stretch_of(&part, x, &samples, s);
-        for (; x < stretch.x; ++x) no_samples(&out, x);
-        add_stretch(&of, &l, &samples, &stretch, &pixel);
+        for (; x < stretch.x; ++x) leave_pixel(&batch, guide_columns, &out, x);
+        add_stretch(&samples, &stretch, &pixel);
         if (stretch.ends)
-          finish_pixel(&pixel, guide_columns, first_of_pixel(&part, x + 1) - first_of_pixel(&part, x), &out, x);
+          finish_pixel(&pixel, first_of_pixel(&part, x + 1) - first_of_pixel(&part, x), guide_columns, &out, x, &batch);
         x += stretch.ends;
         s = stretch.to;
       }
     }
+    finish_batch(&batch, guide_columns, &out);
     for (; x < part.end; ++x) no_samples(&out, x);
   }
 }

@@ -12,6 +12,7 @@ typedef struct {
 
 // What is made of samples, and of how many.
 typedef struct {
+  float records[RPF_SAMPLES_AT_ONCE * RPF_LANES];  // the first values of each
   float seen[RPF_SAMPLES_AT_ONCE * RPF_SEEN];
   float hidden[RPF_SAMPLES_AT_ONCE * RPF_HIDDEN_STRIDE];
   float features[RPF_SAMPLES_AT_ONCE * RPF_FEATURE_STRIDE];  // there is room for the context behind them
@@ -26,21 +27,29 @@ static void sample1(const float* computed, __global const float* records, __glob
 static void sample2(const float* own, __global const float* weights, __global const float* bias, float* out, int count);
 static void weight1(const float* own, __global const float* weights, __global const float* bias, float* out, int count);
 
-// The first RPF_LANES values of a record; behind the last record there is nothing to be read.
-static float16 begin_of_record(__global const float* records, const rpf_samples* l, uint sample) {
-  const size_t first = (size_t)sample * (size_t)l->variables, end = (size_t)l->samples * (size_t)l->variables;
-  if (first + RPF_LANES <= end) return vload16(0, records + first);
-  float values[RPF_LANES] = {0.0f};
-  for (size_t i = first; i < end; ++i) values[i - first] = records[i];
-  return vload16(0, values);
+// The first RPF_LANES values of RPF_LANES records; zeros for those behind the launch's last one, where there is nothing
+// to be read.
+static void load_records(const Seeing* of, const rpf_samples* l, uint first, float16* rows) {
+  const size_t stride = (size_t)l->variables, end = (size_t)l->samples * stride;
+  __global const float* next = of->records + (size_t)(first + RPF_SAMPLES_AT_ONCE) * stride;
+  for (int k = 0; k < RPF_LANES * l->variables; k += RPF_LANES) ask_for(next + k);
+  if ((size_t)(first + RPF_LANES - 1) * stride + RPF_LANES <= end) {
+#pragma unroll
+    for (uint i = 0; i < RPF_LANES; ++i) rows[i] = vload16(0, of->records + (size_t)(first + i) * stride);
+    return;
+  }
+  for (uint i = 0; i < RPF_LANES; ++i) {
+    const size_t begin = (size_t)(first + i) * stride;
+    float values[RPF_LANES];
+    for (size_t k = 0; k < RPF_LANES; ++k) values[k] = begin + k < end ? of->records[begin + k] : 0.0f;
+    rows[i] = vload16(0, values);
+  }
 }
 
-// What is computed of RPF_LANES samples, the last one once more for those behind it. Color, albedo and miss are among
-// the first RPF_LANES values of a record.
-static void compute_inputs(const Seeing* of, const rpf_samples* l, uint first, uint last, float* seen) {
-  float16 columns[RPF_LANES], rows[RPF_LANES];
-#pragma unroll
-  for (uint i = 0; i < RPF_LANES; ++i) columns[i] = begin_of_record(of->records, l, min(first + i, last));
+// What is computed of RPF_LANES samples. `columns`: the first values of their records, among which are color, albedo
+// and miss.
+static void compute_inputs(const Seeing* of, const rpf_samples* l, float16* columns, float* seen) {
+  float16 rows[RPF_LANES];
   transpose(columns);
   const float16 miss = of->base_columns[3] < 0 ? 0.0f : columns[of->base_columns[3]];
 #pragma unroll
@@ -64,8 +73,13 @@ static void compute_inputs(const Seeing* of, const rpf_samples* l, uint first, u
 static void see_samples(const Seeing* of, const rpf_samples* l, uint first, uint count, Samples* samples) {
   samples->first = first;
   samples->count = count;
-  for (uint s = 0; s < count; s += RPF_LANES)
-    compute_inputs(of, l, first + s, first + count - 1, samples->seen + s * RPF_SEEN);
+  for (uint s = 0; s < count; s += RPF_LANES) {
+    float16 rows[RPF_LANES];
+    load_records(of, l, first + s, rows);
+#pragma unroll
+    for (uint i = 0; i < RPF_LANES; ++i) vstore16(rows[i], s + i, samples->records);
+    compute_inputs(of, l, rows, samples->seen + s * RPF_SEEN);
+  }
   sample1(samples->seen, of->records + (size_t)first * (size_t)l->variables, of->input_columns, l->inputs, l->variables,
           of->weights1, of->bias1, samples->hidden, (int)count);
   sample2(samples->hidden, of->weights2, of->bias2, samples->features, (int)count);

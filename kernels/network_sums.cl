@@ -14,12 +14,11 @@ static PixelSums no_sums(void) {
   return sums;
 }
 
-static void add_weighted(const Seeing* of, const rpf_samples* l, const Samples* samples, const Stretch* stretch,
-                         const float* weights, PixelSums* pixel) {
+static void add_weighted(const Samples* samples, const Stretch* stretch, const float* weights, PixelSums* pixel) {
   PixelSums sums = stretch->begins ? no_sums() : *pixel;
   for (uint s = stretch->from; s < stretch->to; ++s) {
     const float weight = weights[s];
-    sums.records = fma((float16)weight, begin_of_record(of->records, l, samples->first + s), sums.records);
+    sums.records = fma((float16)weight, vload16(s, samples->records), sums.records);
     sums.seen = fma((float16)weight, vload16(s, samples->seen), sums.seen);
     sums.weight = rpf_added(sums.weight, weight);
   }
@@ -96,7 +95,8 @@ __kernel void sum(__global const float* records, __global const int* base_column
   Samples samples;
   PixelSums pixel;
   float hidden[RPF_SAMPLES_AT_ONCE * RPF_WEIGHT_FEATURES], weights[RPF_SAMPLES_AT_ONCE];
-  for (int i = l.first_part + (int)get_global_id(0); i < l.end_part; i += (int)get_global_size(0)) {
+  const int parts = l.end_part - l.first_part, end_of_share = l.first_part + share_of(parts, get_global_id(0) + 1);
+  for (int i = l.first_part + share_of(parts, get_global_id(0)); i < end_of_share; ++i) {
     const Part part = part_of_launch(first_sample, &l, i);
     __global const float* head_row = heads + row_at(&head_grid, part.y) + RPF_BORDER * head_stride;
     __global float* row = sums + row_at(&grid, part.y);
@@ -113,7 +113,7 @@ __kernel void sum(__global const float* records, __global const int* base_column
       for (uint s = 0; s < samples.count;) {
         const Stretch stretch = stretch_of(&part, x, &samples, s);
         for (; x < stretch.x; ++x) no_weighted_samples(out, planes, plane, x);
-        add_weighted(&of, &l, &samples, &stretch, weights, &pixel);
+        add_weighted(&samples, &stretch, weights, &pixel);
         add_weighted_others(others, &l, &samples, &stretch, weights, out, plane);
         if (stretch.ends) finish_sums(&pixel, out, plane, x);
         x += stretch.ends;

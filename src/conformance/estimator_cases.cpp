@@ -65,7 +65,7 @@ void add_networks(EstimatorCases& list) {
                 {"two-levels", 24, {24, 40}, 8},
                 {"wide", 24, {32, 64, 96, 128}, 10},
                 {"odd", 5, {7, 12, 9}, 3},
-                {"shipped-shape", 24, {24, 40, 64, 80}, 8},
+                {"four-levels", 24, {24, 40, 64, 80}, 8},
                 {"deep", 8, {8, 8, 16, 16, 24, 24}, 21}};
   for (const auto& shape : shapes)
     list.add(fmt::format("network/{}", shape.name), [&](ConformanceCase& c) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "cpu/fma.h"
+#include "parallel/vectors.h"
 
 namespace rpf {
 namespace {
@@ -171,7 +171,7 @@ void Estimate::sum_samples() {
   const double samples = static_cast<double>(first_sample_.back()) / window_.height;
   for_rows_of_samples(samples * weighing(network_), false, [&](int y) {
     SampleNetwork network(frame_, plan_);
-    with_fma([&] {
+    with_avx2([&] {
       for (int x = 0; x < window_.width; ++x) sum_pixel(x, y, network);
     });
   });
@@ -227,7 +227,7 @@ void Estimate::result_of(int x, int y, float* out) const {
 std::vector<float> Estimate::results() {
   std::vector<float> pixels(window_.pixel_count() * plan_.carried);
   for_rows_(window_.height, 0, [&](int y) {
-    with_fma([&] {
+    with_avx2([&] {
       float* row =
           pixels.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(window_.width) * plan_.carried;
       for (int x = 0; x < window_.width; ++x) result_of(x, y, row + static_cast<std::size_t>(x) * plan_.carried);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cpu/fma.h"
+#include "parallel/vectors.h"
 #include "rpf_network.h"
 
 namespace rpf {
@@ -69,7 +69,7 @@ inline void convolve_cells(const NetworkLayer& layer, const std::vector<Source>&
 }  // namespace
 
 void dense(const NetworkLayer& layer, const float* x, int first, int count, float* out) {
-  with_fma([&] {
+  with_avx2([&] {
     std::copy_n(layer.bias.begin() + first, count, out);
     accumulate<1>(&x, layer.inputs, layer.weights.data() + first, layer.outputs, count, &out);
   });
@@ -80,7 +80,7 @@ void activate(float* values, int count) {
 }
 
 void convolve_row(const NetworkLayer& layer, const std::vector<Source>& sources, int y, Field& out) {
-  with_fma([&] {
+  with_avx2([&] {
     int x = 0;
     for (; x + 4 <= out.width; x += 4) convolve_cells<4>(layer, sources, x, y, out);
     for (; x < out.width; ++x) convolve_cells<1>(layer, sources, x, y, out);

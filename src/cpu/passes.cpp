@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cpu/fma.h"
+#include "parallel/vectors.h"
 #include "rpf_network.h"
 
 namespace rpf {
@@ -64,7 +64,7 @@ inline void filter_row_inside(const PassWeights& weights, int dilation, const Ro
 }  // namespace
 
 void filter_row(const PassWeights& weights, int dilation, const Rows& in, int y, Rows& out) {
-  with_fma([&] { filter_row_inside(weights, dilation, in, y, out); });
+  with_avx2([&] { filter_row_inside(weights, dilation, in, y, out); });
 }
 
 }  // namespace rpf

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cpu/fma.h"
+#include "parallel/vectors.h"
 
 namespace rpf {
 namespace {
@@ -62,11 +62,11 @@ void SampleNetwork::fill_moment_values() {
 }
 
 float SampleNetwork::mean(std::size_t k, float samples) const {
-  return kernel::rpf_shifted_mean(first_[k], sums_[k], samples);
+  return kernel::rpf_shifted_mean(first_[k], sums_[k], 1 / samples);
 }
 
 float SampleNetwork::variance(std::size_t k, float samples) const {
-  return kernel::rpf_shifted_variance(sums_[k], squares_[k], samples);
+  return kernel::rpf_shifted_variance(sums_[k], squares_[k], 1 / samples);
 }
 
 void SampleNetwork::fill_pixel_values(float samples, float* values) const {
@@ -90,7 +90,7 @@ void SampleNetwork::fill_pixel_values(float samples, float* values) const {
 }
 
 void SampleNetwork::add_moments() {
-  with_fma([&] {
+  with_avx2([&] {
     for (std::size_t k = 0; k < current_.size(); ++k) {
       const float d = current_[k] - first_[k];
       sums_[k] += d;

@@ -11,8 +11,12 @@ namespace {
 
 using Kind = EstimateStep::Kind;
 
-/// Cells of a part of a row: many parts for many work-items, and each long enough.
-constexpr int part_cells = 64;
+/// Cells of a part of a row: as many parts as there are work-items, but each long enough.
+int part_cells(int width, std::size_t items) {
+  constexpr int least = 32, unit = RPF_LANES;
+  const int share = width / static_cast<int>(std::min<std::size_t>(items, static_cast<std::size_t>(width)));
+  return std::max(least, (share + unit - 1) / unit * unit);
+}
 
 /// Multiply-adds that the device is asked for before it is waited for: a fraction of a second, and of the whole.
 constexpr double work_at_once = 2e9, least_waits = 16;
@@ -65,7 +69,7 @@ void EstimateRun::launch(cl::Kernel& kernel, const Values&... values) {
 
 kernel::rpf_area EstimateRun::area(const EstimateStep& step, int first, int end) const {
   const EstimateGrid& g = steps_.grids[static_cast<std::size_t>(step.out.front())];
-  return {g.width, g.height, first, end, part_cells};
+  return {g.width, g.height, first, end, part_cells(g.width, items_)};
 }
 
 void EstimateRun::run_layer(const EstimateStep& step, const DeviceLayer& layer, int first, int end) {

@@ -14,10 +14,10 @@ using kernel::uint;
 /// Rows that a step makes at once: enough work for a launch, and little enough that what one step writes is still in
 /// the processor's caches for the next. Passes read many rows around, so that few of them at once would be read over
 /// and over.
-constexpr int cells_at_once = 16384, most_rows_at_once = 64, least_rows_at_once = 8;
+constexpr int cells_at_once = 16384, most_rows_at_once = 64, pass_rows_at_once = 32, least_rows_at_once = 8;
 
 int rows_at_once(Kind kind, int width, int level) {
-  if (kind == Kind::pass || kind == Kind::finish) return most_rows_at_once;  // the latter asks for rows of the former
+  if (kind == Kind::pass || kind == Kind::finish) return pass_rows_at_once;  // the latter asks for rows of the former
   return std::clamp(cells_at_once / width, least_rows_at_once,
                     std::max(most_rows_at_once >> level, least_rows_at_once));
 }

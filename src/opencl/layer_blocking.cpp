@@ -66,7 +66,7 @@ class LayerText : Lines {
     line("__kernel void {}(__global const float* coarse, __global const float* own, __global const float* weights,",
          shape_.name());
     line("    __global const float* bias, __global float* out, const rpf_layer l) {{");
-    line("  for (int i = first_part(); i < end_part(&l.area); i += (int)get_global_size(0)) {{");
+    line("  for (int i = first_part(&l.area), last = end_part(&l.area); i < last; ++i) {{");
     line(
         "    const int y = row_of_part(&l.area, i), begin = begin_of_part(&l.area, i), end = end_of_part(&l.area, i);");
     line("    __global float* line = out + row_at(&l.out, y) + {};", border() * shape_.out_stride);

@@ -96,7 +96,7 @@ int SampleStage::bring(int first, int end, bool again) {
 }
 
 std::uint32_t SampleStage::samples_in(const kernel::rpf_area& area, int part) const {
-  const int parts = kernel::rpf_parts_of_row(&area), row = area.first + part / parts, begin = part % parts * area.part;
+  const int rows = area.end - area.first, row = area.first + part % rows, begin = part / rows * area.part;
   return first_sample(row, std::min(begin + area.part, area.width)) - first_sample(row, begin);
 }
 

@@ -73,10 +73,10 @@ TEST(Moments, AreThoseOfTheSamples) {
     sum += v - first;
     squares = fma(v - first, v - first, squares);
   }
-  EXPECT_EQ(rpf_shifted_mean(first, sum, 4), 1002.0F);
-  EXPECT_EQ(rpf_shifted_variance(sum, squares, 4), 2.5F);
-  EXPECT_EQ(rpf_shifted_variance(nan, nan, 4), 0.0F);
-  EXPECT_EQ(rpf_shifted_variance(infinity, infinity, 4), 0.0F);
+  EXPECT_EQ(rpf_shifted_mean(first, sum, 0.25F), 1002.0F);
+  EXPECT_EQ(rpf_shifted_variance(sum, squares, 0.25F), 2.5F);
+  EXPECT_EQ(rpf_shifted_variance(nan, nan, 0.25F), 0.0F);
+  EXPECT_EQ(rpf_shifted_variance(infinity, infinity, 0.25F), 0.0F);
 }
 
 TEST(RelativeError, IsQOverOnePlusQ) {
