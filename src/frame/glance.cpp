@@ -5,6 +5,8 @@
 #include <iterator>
 #include <numeric>
 
+#include "parallel/vectors.h"
+
 namespace rpf {
 namespace {
 
@@ -57,9 +59,11 @@ void Glance::look(const SampleBuffer& rows, std::size_t begin, std::size_t end, 
 void Glance::look_at_block(const float* records, std::size_t count, const PixelCorners& corners, std::uint8_t* marks) {
   block_.take(records, count);
   BlockMask is_unclean = {}, is_odd = {};
-  find_unclean(is_unclean);
-  std::fill(is_unclean + count, std::end(is_unclean), ~0);
-  include_brightness(is_unclean);
+  with_avx2([&] {
+    find_unclean(is_unclean);
+    std::fill(is_unclean + count, std::end(is_unclean), ~0);
+    include_brightness(is_unclean);
+  });
   if (conventions_ != nullptr) conventions_->look(block_, corners, is_odd);
   for (std::size_t i = 0; i < count; ++i)
     marks[i] = static_cast<std::uint8_t>((is_unclean[i] != 0 ? unclean : 0) | (is_odd[i] != 0 ? odd : 0));

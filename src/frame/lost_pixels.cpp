@@ -77,10 +77,11 @@ class Spreading {
 PixelColor color_of_samples(const SampleBuffer& rows, const Columns& columns, std::uint32_t begin, std::uint32_t end) {
   PixelColor color;
   color.is_known = begin < end;
+  const double share = 1.0 / std::max(end - begin, 1U);
   for (std::size_t c = 0; color.is_known && c < 3; ++c) {
     double sum = 0;
     for (std::uint32_t i = begin; i < end; ++i) sum += static_cast<double>(rows.record(i)[columns.color[c]]);
-    color.mean[c] = static_cast<float>(sum / (end - begin));
+    color.mean[c] = static_cast<float>(sum * share);
   }
   return color;
 }

@@ -81,11 +81,15 @@ std::array<double, 3> mean_color(const Frame& frame, std::size_t pixel) {
 
 double energy_of_means(const Frame& frame, const Window& region) {
   double sum = 0;
-  for (int y = region.y; y < region.y + region.height; ++y)
-    for (int x = region.x; x < region.x + region.width; ++x)
-      for (const double c : mean_color(frame, static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
-                                                  static_cast<std::size_t>(x)))
-        sum += c;
+  for (int y = region.y; y < region.y + region.height; ++y) {
+    double of_row = 0;
+    for (int x = region.x; x < region.x + region.width; ++x) {
+      const std::array<double, 3> mean = mean_color(
+          frame, static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x));
+      of_row += mean[0] + mean[1] + mean[2];
+    }
+    sum += of_row;
+  }
   return sum;
 }
 

@@ -38,7 +38,7 @@ std::array<double, 3> mean_color(const Frame& frame, std::size_t pixel);
 /// The same of what is carried beside the color too, of a frame of the learned estimator. `mean`: [carried].
 void mean_of_pixel(const Frame& frame, std::size_t pixel, std::size_t carried, double* mean);
 
-/// Sum of the components of mean_color() over a region.
+/// Sum of the components of mean_color() over a region, row by row: the same bits where rows come by and by.
 double energy_of_means(const Frame& frame, const Window& region);
 
 }  // namespace rpf

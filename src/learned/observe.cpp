@@ -112,6 +112,7 @@ Observed observe_frame(const SampleBuffer& whole, const ObservedFindings& found,
   plan_columns(plan, view, found.constant);
   sort_names(clean, plan, clean.prepared);
   clean.prepared.frame.variables = 3 + columns_of(plan).size();
+  result.energy = found.energy * clean.prepared.facts.radiance_scale;
   result.prepared = std::move(clean.prepared);
   return result;
 }

@@ -12,6 +12,7 @@ namespace rpf {
 struct Observed {
   PreparedFrame prepared;  ///< its records as in estimate_plan.h; variables: names of what varies
   EstimatePlan plan;
+  double energy = 0;  ///< ObservedFindings::energy of the scaled radiance
 };
 
 /// Prepares a frame for the learned estimator: makes what the network sees in the place of the samples, and plans for

@@ -19,7 +19,17 @@ Number lower_median(std::vector<Number> values) {
   return *middle;
 }
 
-double luminance(double red, double green, double blue) { return (red + green + blue) / 3; }
+/// Of a pixel's samples. The same operations as energy_of_means(): some rows of a frame have the energy that they have
+/// in the whole, bit for bit.
+struct ColorSum {
+  double color[3] = {}, weight = 0;
+
+  void add(const float (&of_sample)[3], double its_weight) {
+    for (std::size_t c = 0; c < 3; ++c) color[c] += its_weight * of_sample[c];
+    weight += its_weight;
+  }
+  double energy_of_mean() const { return weight > 0 ? color[0] / weight + color[1] / weight + color[2] / weight : 0; }
+};
 
 struct PixelBlock {
   double mean;  ///< luminance
@@ -28,7 +38,7 @@ struct PixelBlock {
 
 /// Of 8x8 pixels, fewer at the right and lower edge: of few samples many pixels are black and some far too bright, but
 /// as many as there are in a block tell how bright it is.
-std::vector<PixelBlock> blocks_of(const std::vector<double>& luminances, const Window& window) {
+std::vector<PixelBlock> blocks_of(const std::vector<double>& energies, const Window& window) {
   constexpr int side = 8;
   std::vector<PixelBlock> blocks;
   for (int y = 0; y < window.height; y += side)
@@ -36,8 +46,9 @@ std::vector<PixelBlock> blocks_of(const std::vector<double>& luminances, const W
       const int width = std::min(side, window.width - x), height = std::min(side, window.height - y);
       double sum = 0;
       for (int row = y; row < y + height; ++row) {
-        const auto first = luminances.begin() + static_cast<std::ptrdiff_t>(row) * window.width + x;
-        sum = std::accumulate(first, first + width, sum);
+        const auto first = energies.begin() + static_cast<std::ptrdiff_t>(row) * window.width + x;
+        sum =
+            std::accumulate(first, first + width, sum, [](double all, double e) { return all + std::max(e / 3, 0.0); });
       }
       const double pixels = width * height;
       blocks.push_back({sum / pixels, pixels});
@@ -74,16 +85,17 @@ ObserveScan::ObserveScan(const SampleBuffer& frame, const Settings& settings)
       clean_(begin_frame(frame, settings)),
       cleaning_(clean_.frame, clean_.columns, settings),
       view_(clean_),
-      luminances_(frame.data_window.pixel_count()) {
+      energies_(frame.data_window.pixel_count()),
+      weighted_(clean_.columns.weight ? energies_.size() : 0) {
   for (int input = RPF_INPUT_NORMAL; input < RPF_INPUTS; ++input)
     if (view_.has(input)) (is_relative(input) ? relative_ : plain_).push_back(input);
-  for (auto& component : positions_) component.assign(luminances_.size(), missing);
+  for (auto& component : positions_) component.assign(energies_.size(), missing);
 }
 
 void ObserveScan::add(SampleBuffer& rows) {
   const std::size_t first = first_pixel(rows.data_window, clean_.frame.data_window);
   cleaning_.add(rows, [&](std::size_t place, std::uint32_t begin, std::uint32_t end) {
-    include_luminance(rows, first + place, begin, end);
+    include_energy(rows, first + place, begin, end);
     include_position(rows, first + place, begin, end);
   });
   if (cleaning_.lacks_positions()) center_missing_positions(rows, clean_.columns, method_);
@@ -94,15 +106,17 @@ void ObserveScan::add(SampleBuffer& rows) {
   leave_constant(rows, plain_, first_plain_);
 }
 
-void ObserveScan::include_luminance(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin,
-                                    std::uint32_t end) {
-  const auto& color = clean_.columns.color;
-  double sum = 0;
+void ObserveScan::include_energy(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin, std::uint32_t end) {
+  const Columns& columns = clean_.columns;
+  ColorSum plain, weighted;
   for (std::uint32_t i = begin; i < end; ++i) {
     const float* record = rows.record(i);
-    sum += luminance(record[color[0]], record[color[1]], record[color[2]]);
+    const float color[3] = {record[columns.color[0]], record[columns.color[1]], record[columns.color[2]]};
+    plain.add(color, 1);
+    if (columns.weight) weighted.add(color, record[*columns.weight]);
   }
-  luminances_[pixel] = begin < end ? std::max(sum / (end - begin), 0.0) : 0;
+  energies_[pixel] = plain.energy_of_mean();
+  if (columns.weight) weighted_[pixel] = weighted.weight > 0 ? weighted.energy_of_mean() : energies_[pixel];
 }
 
 void ObserveScan::include_position(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin,
@@ -169,7 +183,7 @@ void ObserveScan::find_varying(const SampleBuffer& rows, std::size_t begin, std:
 
 /// The power of two that exposes the frame: of the mean luminance, without what is far above the median.
 float ObserveScan::exposure() const {
-  const std::vector<PixelBlock> blocks = blocks_of(luminances_, clean_.frame.data_window);
+  const std::vector<PixelBlock> blocks = blocks_of(energies_, clean_.frame.data_window);
   std::vector<double> positive;
   for (const PixelBlock& block : blocks)
     if (block.mean > 0) positive.push_back(block.mean);
@@ -177,8 +191,19 @@ float ObserveScan::exposure() const {
   const double limit = 8 * lower_median(std::move(positive));
   double sum = 0;
   for (const PixelBlock& block : blocks) sum += block.pixels * std::min(block.mean, limit);
-  const double mean = sum / static_cast<double>(luminances_.size());
+  const double mean = sum / static_cast<double>(energies_.size());
   return power_of_two(-2 - std::ilogb(mean * radiance_scale(found_.cleaned.brightest)));
+}
+
+double ObserveScan::energy() const {
+  const std::vector<double>& means = weighted_.empty() ? energies_ : weighted_;
+  const Window& crop = clean_.prepared.facts.crop;
+  double sum = 0;
+  for (int y = crop.y; y < crop.y + crop.height; ++y) {
+    const auto row = means.begin() + static_cast<std::ptrdiff_t>(y) * clean_.frame.data_window.width + crop.x;
+    sum += std::accumulate(row, row + crop.width, 0.0);
+  }
+  return sum;
 }
 
 bool ObserveScan::finish() {
@@ -187,17 +212,20 @@ bool ObserveScan::finish() {
     found_.has_hit = false;
     largest_weight_ = 0;
     for (auto& component : positions_) component.clear();
-    std::fill(luminances_.begin(), luminances_.end(), 0);
+    std::fill(energies_.begin(), energies_.end(), 0);
+    std::fill(weighted_.begin(), weighted_.end(), 0);
   }
   for (const LostPixel& lost : found_.cleaned.lost) {
-    double sum = 0;
-    for (std::uint32_t i = 0; i < lost.samples; ++i) sum += luminance(lost.color[0], lost.color[1], lost.color[2]);
-    luminances_[lost.pixel] = std::max(sum / lost.samples, 0.0);
+    ColorSum sum;
+    for (std::uint32_t i = 0; i < lost.samples; ++i) sum.add({lost.color[0], lost.color[1], lost.color[2]}, 1);
+    energies_[lost.pixel] = sum.energy_of_mean();
+    if (!weighted_.empty()) weighted_[lost.pixel] = energies_[lost.pixel];
   }
   found_.exposure = exposure();
+  found_.energy = energy();
   found_.weight_scale = largest_weight_ > 0 ? power_of_two(-std::ilogb(largest_weight_)) : 1;
   found_.positions = facts_of(positions_);
-  luminances_ = {};
+  energies_ = weighted_ = {};
   for (auto& component : positions_) component = {};
   return found_.cleaned.has_color;
 }

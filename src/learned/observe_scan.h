@@ -25,6 +25,7 @@ struct ObservedFindings {
   float exposure = 1, weight_scale = 1;  ///< as in EstimatePlan
   bool has_hit = false;                  ///< whether any sample is of a hit
   std::vector<int> constant;             ///< inputs that there are channels for and that do not vary
+  double energy = 0;  ///< sum of R, G and B of the means of the crop's pixels, weighted as the file says
 };
 
 class ObserveScan {
@@ -52,7 +53,7 @@ class ObserveScan {
   using Marked = std::array<std::atomic<bool>, RPF_INPUTS>;
 
   /// Of a pixel with the samples begin .. end - 1 of the rows.
-  void include_luminance(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin, std::uint32_t end);
+  void include_energy(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin, std::uint32_t end);
   void include_position(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin, std::uint32_t end);
   /// What these inputs are for the first sample of all, if these are the first rows.
   void know_first(const SampleBuffer& rows, const std::vector<int>& inputs, FirstValues& first) const;
@@ -63,13 +64,15 @@ class ObserveScan {
   void find_varying(const SampleBuffer& rows, std::size_t begin, std::size_t end, std::vector<int> inputs,
                     const FirstValues& first, Marked& varying) const;
   float exposure() const;
+  double energy() const;
 
   Method method_;
   int threads_;
   CleanFrame clean_;
   Cleaning cleaning_;
   RecordView view_;
-  std::vector<double> luminances_;   ///< [pixel] in radiance as it is
+  std::vector<double> energies_;     ///< [pixel] R + G + B of its plain mean, in radiance as it is
+  std::vector<double> weighted_;     ///< [pixel] the same of the weighted mean, where the file has weights
   std::vector<float> positions_[3];  ///< [pixel] of each component; NaN where there is none
   float largest_weight_ = 0;
   std::vector<int> plain_, relative_;  ///< inputs that did not vary so far; relative: to where the positions lie

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "learned/observe_scan.h"
+#include "parallel/vectors.h"
 
 namespace rpf {
 namespace {
@@ -235,6 +236,10 @@ void RecordView::read_second_hits(const ColumnBlock& records, const BlockMask& h
 }
 
 void RecordView::read(const ColumnBlock& records, const PositionFacts& positions, InputBlock& inputs) const {
+  with_avx2([&] { read_all(records, positions, inputs); });
+}
+
+void RecordView::read_all(const ColumnBlock& records, const PositionFacts& positions, InputBlock& inputs) const {
   BlockMask hits;
   find_hits(records, hits);
   read_first_hits(records, hits, positions, inputs);

@@ -53,6 +53,7 @@ class RecordView {
   };
 
   Reads reads_of(const std::vector<int>& inputs) const;
+  void read_all(const ColumnBlock& records, const PositionFacts& positions, InputBlock& inputs) const;
   bool is_hit(const float* record) const;
   void find_hits(const ColumnBlock& records, BlockMask& hits) const;
   void read_first_hits(const ColumnBlock& records, const BlockMask& hits, const PositionFacts& positions,

@@ -78,6 +78,7 @@ class Run {
       prepared_.frame.first_sample =
           first_sample_in_frame(observe_rows(std::move(rows), frame, *observed, settings, estimate_plan_, prepared_),
                                 window, frame.data_window);
+      plain_energy_ = energy_of_means(prepared_.frame, prepared_.facts.crop);  // facts of the whole do not tell it
       return;
     }
     const auto& found = std::get<FrameFindings>(facts);
@@ -142,6 +143,7 @@ class Run {
   void take(Observed observed) {
     prepared_ = std::move(observed.prepared);
     estimate_plan_ = std::move(observed.plan);
+    plain_energy_ = observed.energy;
   }
 
   Pixels resolved() const { return resolve(prepared_.frame, backend_->colors(), plan_.carried); }
@@ -196,7 +198,7 @@ class Run {
     Result result;
     result.report.model = estimate_plan_.network->name;
     result.report.model_hash = estimate_plan_.network->hash;
-    describe_at_once(result, pixels, means.energy(), meter);
+    describe_at_once(result, pixels, stream_ ? stream_->energy() : plain_energy_, meter);
     return result;
   }
 
@@ -306,6 +308,7 @@ class Run {
   PreparedFrame prepared_;
   Plan plan_;
   EstimatePlan estimate_plan_;
+  double plain_energy_ = 0;  ///< of a learned estimate in memory: what its picture's energy is held against
   PixelPlan pixel_plan_;
   LightField light_;
   ObservedFindings found_;

@@ -46,10 +46,8 @@ PlainMeans::Part PlainMeans::part_of(int row) const {
   Part part;
   std::vector<double> mean(prepared_.facts.carried);
   for_pixels(prepared_.facts, row, row + 1, [&](std::size_t pixel) {
-    const bool is_needed = has_own_share(prepared_.frame.samples(pixel));
-    mean_of_pixel(prepared_.frame, pixel, is_needed ? mean.size() : 3, mean.data());
-    for (std::size_t c = 0; c < 3; ++c) part.energy += mean[c];
-    if (!is_needed) return;
+    if (!has_own_share(prepared_.frame.samples(pixel))) return;
+    mean_of_pixel(prepared_.frame, pixel, mean.size(), mean.data());
     part.means.insert(part.means.end(), mean.begin(), mean.end());
     part.effective.push_back(PixelWeights(prepared_.frame, pixel).effective_samples());
   });
@@ -57,13 +55,13 @@ PlainMeans::Part PlainMeans::part_of(int row) const {
 }
 
 void PlainMeans::add_rows(int first, int end) {
+  if (!has_own_share(prepared_.facts.max_samples_per_pixel)) return;
   std::vector<Part> rows(static_cast<std::size_t>(std::max(end - first, 0)));
   Workers(threads_).for_all(
       0, rows.size(), [&](std::size_t n, std::size_t /*worker*/) { rows[n] = part_of(first + static_cast<int>(n)); });
   for (const Part& row : rows) {
     all_.means.insert(all_.means.end(), row.means.begin(), row.means.end());
     all_.effective.insert(all_.effective.end(), row.effective.begin(), row.effective.end());
-    all_.energy += row.energy;
   }
 }
 

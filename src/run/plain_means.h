@@ -1,5 +1,5 @@
-// The plain means of the pixels that the learned estimator filters: what the picture's energy is held against, and what
-// pixels of many samples are drawn to (docs/network.md, "Many samples").
+// The plain means of pixels that have many samples, to which the learned estimator's results are drawn
+// (docs/network.md, "Many samples").
 #pragma once
 
 #include <cstddef>
@@ -30,18 +30,14 @@ class PlainMeans {
   /// The pixels of the crop in these rows, whose samples are in memory. Rows come in their order, each once.
   void add_rows(int first, int end);
 
-  /// Sum of their components R, G and B.
-  double energy() const { return all_.energy; }
-
   /// Gives each of the crop's pixels, all of which were added, its share of its mean.
   void draw_to_means(Pixels& pixels, float exposure) const;
 
  private:
-  /// Of one row, or of all: energy is summed row by row, so that threads do not change it.
+  /// Of one row, or of all.
   struct Part {
     Pixels means;                   ///< [pixel that needs it][carried]
     std::vector<double> effective;  ///< [pixel that needs it] samples
-    double energy = 0;
   };
   Part part_of(int row) const;
 

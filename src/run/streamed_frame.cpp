@@ -1,11 +1,14 @@
 #include "run/streamed_frame.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "frame/clean.h"
+#include "frame/resolve.h"
 #include "learned/observe.h"
 #include "parallel/thread_count.h"
+#include "parallel/workers.h"
 #include "run/row_scan.h"
 
 namespace rpf {
@@ -127,6 +130,13 @@ void StreamedFrame::add_means(const Block& block) {
   if (block.end <= counted_) return;
   counted_ = block.end;
   means_.add_rows(block.first, block.end);
+  const Window& crop = prepared_.facts.crop;
+  const int first = std::max(block.first, crop.y), end = std::max(std::min(block.end, crop.y + crop.height), first);
+  std::vector<double> energies(static_cast<std::size_t>(end - first));
+  Workers(thread_count(settings_)).for_all(0, energies.size(), [&](std::size_t n, std::size_t /*worker*/) {
+    energies[n] = energy_of_means(prepared_.frame, {crop.x, first + static_cast<int>(n), crop.width, 1});
+  });
+  energy_ = std::accumulate(energies.begin(), energies.end(), energy_);
 }
 
 }  // namespace rpf

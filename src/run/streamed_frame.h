@@ -26,6 +26,8 @@ class StreamedFrame : public RowSupply {
 
   /// Of the rows that were brought: all of them, from the first on.
   const PlainMeans& means() const { return means_; }
+  /// The same: energy_of_means() in the crop.
+  double energy() const { return energy_; }
 
   /// Bytes of records that are in memory at most, whatever is kept: of the rows asked for, while they are read.
   static std::uint64_t least_bytes(const SampleRows& rows);
@@ -65,6 +67,7 @@ class StreamedFrame : public RowSupply {
   std::uint64_t uses_ = 0;
   int counted_ = 0;  ///< end of the rows whose means are known
   PlainMeans means_;
+  double energy_ = 0;
 };
 
 }  // namespace rpf

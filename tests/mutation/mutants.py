@@ -288,6 +288,8 @@ MUTANTS = [
            "Methods/Rows.FactsAreThoseOfTheWhole/*", "rows: an input is constant that is so in every row"),
     Mutant("rows_reach", ROWS, "reach += box_reach(width);", "reach = box_reach(width);", "Methods/Rows.OfACropAreThoseOfTheWhole/*",
            "rows: what the first pass reads is not there"),
+    Mutant("energy_weights", OBSERVE_SCAN, "weighted.add(color, record[*columns.weight]);", "weighted.add(color, 1);", "Energy.IsThatOfTheMeansInTheCrop",
+           "the mean's energy, which the picture's is held against, is without weights"),
     Mutant("own_share_apart", "src/run/plain_means.cpp", "samples / (samples + distance * distance)", "samples / (samples + distance)",
            "OwnShare.IsLessWhereResultAndMeanAreApart", "fireflies come back with the mean"),
     Mutant("means_of_few", "src/run/plain_means.cpp", "if (!has_own_share(prepared_.frame.samples(pixel))) return;\n    float*", "float*",

@@ -179,6 +179,23 @@ TEST(Inputs, AreFiniteForTheLargestValuesThereAre) {
   for (int input = RPF_INPUT_NORMAL; input < RPF_INPUTS; ++input) EXPECT_LE(std::fabs(o.input(3, input)), 40.0F);
 }
 
+TEST(Energy, IsThatOfTheMeansInTheCrop) {
+  SampleBuffer samples = two_pixels();
+  for (const char* slot : {"R", "G", "B"})
+    for (std::size_t i = 0; i < 4; ++i) value_of(samples, i, slot) = static_cast<float>(i + 1);  // 1 2, 3 4
+  const auto energy_of = [](const SampleBuffer& frame, const Settings& settings) {
+    const Seen o = observed(frame, settings);
+    return o.energy / o.prepared.facts.radiance_scale;
+  };
+  EXPECT_DOUBLE_EQ(energy_of(samples, {}), 3 * (1.5 + 3.5));
+  Settings second;
+  second.crop = Window{1, 0, 1, 1};
+  EXPECT_DOUBLE_EQ(energy_of(samples, second), 3 * 3.5);
+  test::add_channel(samples, "weight", 1);
+  value_of(samples, 3, "weight") = 3;
+  EXPECT_DOUBLE_EQ(energy_of(samples, second), 3 * 3.75);
+}
+
 TEST(WeightScale, BringsTheLargestWeightBetweenOneAndTwo) {
   SampleBuffer samples = two_pixels();
   test::add_channel(samples, "weight", 1e-3F);
