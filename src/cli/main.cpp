@@ -1,5 +1,8 @@
 
 #include <fmt/format.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <csignal>
 #include <new>
@@ -98,11 +101,19 @@ int report(const char* message, ErrorKind kind) {
   return kind == ErrorKind::cancelled ? 128 + received_signal() : static_cast<int>(kind);
 }
 
+/// Frames come one after another: what one gives back the next takes, and the system is not asked for it page by page.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  mallopt(M_TOP_PAD, 64 << 20);
+#endif
+}
+
 }  // namespace
 }  // namespace rpf::cli
 
 int main(int argc, char** argv) {
   using namespace rpf;
+  cli::keep_freed_memory();
   // As errors of a write they are reported and cleaned up after; as signals they would leave a temporary file behind.
   for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);
   cli::open_standard_streams();
