@@ -1,7 +1,8 @@
 """Writes a checkpoint's network as the file that `rpf --model` reads (docs/network.md, "File").
 
 Usage: export.py CHECKPOINT OUT.rpfnet --name NAME [--note TEXT] [--start NETWORK.rpfnet --share 0.6]
---start: the network that training went on from; of its way from there this share is taken, which errs less on new frames than either end.
+--start: the network that training went on from, or that it widened; of its way from there this share is taken, which errs less on new
+frames than either end.
 """
 import argparse
 import json
@@ -10,6 +11,7 @@ import numpy as np
 import torch
 
 from estimator import EMBEDDING, Network
+from widen import widen
 
 
 def layer_values(layer):
@@ -48,9 +50,12 @@ def network_of(state):
     return network
 
 
-def part_of_the_way(start, end, share):
-    """Weights between those of two networks of one shape."""
-    first = start.state_dict()
+def part_of_the_way(start, end, share, seed):
+    """Weights between those of a network and of the one that training made of it, which may be wider: as a run with this seed begins."""
+    torch.manual_seed(seed)
+    wide = Network(end.channels, end.sample_features)
+    widen(start, wide)
+    first = wide.state_dict()
     end.load_state_dict({name: torch.lerp(first[name], last, share) for name, last in end.state_dict().items()})
     return end
 
@@ -73,7 +78,7 @@ def main():
     facts = f"seed {state['seed']}, {state['step']} steps, {state['seconds'] / 3600:.2f} hours, PyTorch {state['torch']}"
     network = network_of(state)
     if args.start:
-        network = part_of_the_way(any_network(args.start), network, args.share)
+        network = part_of_the_way(any_network(args.start), network, args.share, state["seed"])
         facts += f", {args.share:g} of the way"
     write(network, args.out, args.name, f"{args.note}{'; ' if args.note else ''}{facts}")
 

@@ -1,6 +1,6 @@
 """Trains one network. Resumable: all state is in --run, written every few minutes; stop it at any time.
 
-Usage: train.py --run DIR --frames CACHE --validation CACHE --hours H [--channels 24,40,64,80] [--sample-features 24] [--seed 1]
+Usage: train.py --run DIR --frames CACHE --validation CACHE --hours H [--channels 16,24,32,48] [--sample-features 8] [--seed 1]
                 [--start CHECKPOINT|NETWORK.rpfnet] [--rate 1e-3]
 --start goes on from a network that is as wide or narrower (widen.py): a checkpoint's or one that ships; its rate may be lower.
 CACHE holds NAME.samples.npy ([27, n, y, x], frames.py) and NAME.ref.npy ([3, y, x]), exposed alike, and NAME.exposure.npy
@@ -172,8 +172,8 @@ def main():
     parser.add_argument("--frames", required=True)
     parser.add_argument("--validation", required=True)
     parser.add_argument("--hours", type=float, required=True)
-    parser.add_argument("--channels", default="24,40,64,80")
-    parser.add_argument("--sample-features", type=int, default=24)
+    parser.add_argument("--channels", default="16,24,32,48")
+    parser.add_argument("--sample-features", type=int, default=8)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--start")
     parser.add_argument("--rate", type=float, default=1e-3)
