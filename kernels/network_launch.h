@@ -25,12 +25,15 @@ namespace rpf::kernel {
 // Samples of a part of a row of pixels go through the network so many at once, a multiple of RPF_LANES.
 #define RPF_SAMPLES_AT_ONCE 64
 
-// What is computed of a sample: [sample][RPF_SEEN].
+// What is computed of a sample, and its radiance: [sample][RPF_SEEN]. Sums are made of what stands from RPF_SEEN_SUMMED
+// on.
 #define RPF_SEEN 16
 #define RPF_SEEN_INPUTS 0     // 6: inputs 0 to 5
 #define RPF_SEEN_COLOR 6      // 3: c
 #define RPF_SEEN_LUMINANCE 9  // 1
 #define RPF_SEEN_BASE 10      // 3: a
+#define RPF_SEEN_RADIANCE 13  // 3: of the record, as it is
+#define RPF_SEEN_SUMMED 8     // 8
 
 // Rows of a level that are on the device: row y lies at y % rows.
 typedef struct {

@@ -2,12 +2,21 @@
 
 // Where a row's values go.
 typedef struct {
-  __global float *cells, *guides, *albedo;
-  int cell_stride, guides_plane, albedo_plane;  // floats from one cell or plane to the next
+  __global float *entered, *guides, *albedo;
+  __global float* traced;          // what the first layer reads, where somebody wants it; else 0
+  int guides_plane, albedo_plane;  // floats from one plane to the next
 } RowOut;
 
-static void no_samples(const RowOut* out, int x) {
-  for (uint k = 0; k < rpf_pixel_values(RPF_SAMPLE_FEATURES); ++k) out->cells[x * out->cell_stride + (int)k] = 0.0f;
+// The first layer of a pixel, and what it reads of it.
+typedef struct {
+  __global const float *weights, *bias;
+} Enter;
+
+// All that is known of pixel x is 0.
+static void no_samples(const Enter* layer, const RowOut* out, int x) {
+  for (int k = 0; k < RPF_ENTER_STRIDE; k += 8)
+    vstore8(rpf_leaky(vload8(0, layer->bias + k)), 0, out->entered + x * RPF_ENTER_STRIDE + k);
+  for (int k = 0; out->traced != 0 && k < RPF_PIXEL_STRIDE; ++k) out->traced[x * RPF_PIXEL_STRIDE + k] = 0.0f;
   for (int k = 0; k < RPF_GUIDES; ++k) out->guides[k * out->guides_plane + x] = 0.0f;
   for (int k = 0; k < RPF_ALBEDO_SUMS; ++k) out->albedo[k * out->albedo_plane + x] = 0.0f;
 }
@@ -67,10 +76,11 @@ typedef struct {
   int x, count;
   float16 seen[RPF_LANES], records[RPF_LANES], spreads[RPF_LANES];  // means, means, variances of the records
   float luminances[RPF_LANES], samples[RPF_LANES];                  // variances; counts
+  float pixels[RPF_LANES * RPF_PIXEL_STRIDE];                       // what the first layer reads
 } Batch;
 
 // Means and deviations of the features. What is stored beyond them is written over by what comes next.
-static void finish_features(const PixelMoments* pixel, float share, __global float* cell) {
+static void finish_features(const PixelMoments* pixel, float share, float* cell) {
   for (uint v = 0; v < RPF_FEATURE_VECTORS; ++v) vstore16(mean_of(&pixel->features[v], share), v, cell);
   for (uint v = 0; v < RPF_FEATURE_VECTORS; ++v)
     vstore16(rpf_feature_deviation(variance_of(&pixel->features[v], share)), v, cell + RPF_SAMPLE_FEATURES);
@@ -107,8 +117,20 @@ static void store_lanes(float16 values, int count, __global float* to) {
   for (int i = 0; i < count; ++i) to[i] = lanes[i];
 }
 
-// Statistics, guides and albedo of the pixels at hand.
-static void finish_batch(Batch* batch, __global const int* guide_columns, const RowOut* out) {
+// The first layer of the pixels at hand.
+static void enter_batch(const Batch* batch, const Enter* layer, const RowOut* out) {
+  float entered[RPF_LANES * RPF_ENTER_STRIDE];
+  enter(batch->pixels, layer->weights, layer->bias, entered, batch->count);
+  __global float* to = out->entered + batch->x * RPF_ENTER_STRIDE;
+  for (int k = 0; k < batch->count * RPF_ENTER_STRIDE; k += 8) vstore8(vload8(0, entered + k), 0, to + k);
+  for (int k = 0; out->traced != 0 && k < batch->count * RPF_PIXEL_STRIDE; ++k)
+    out->traced[batch->x * RPF_PIXEL_STRIDE + k] = batch->pixels[k];
+}
+
+// Statistics, guides and albedo of the pixels at hand, then their first layer. A call: inlined in four places Intel's
+// compiler took 20 s for it.
+__attribute__((noinline)) static void finish_batch(Batch* batch, __global const int* guide_columns, const Enter* layer,
+                                                   const RowOut* out) {
   float16 statistics[RPF_STATISTICS];
   if (batch->count == 0) return;
   find_statistics(batch, guide_columns, statistics);
@@ -117,50 +139,54 @@ static void finish_batch(Batch* batch, __global const int* guide_columns, const 
   for (int i = 0; i < RPF_ALBEDO_SUMS; ++i)
     store_lanes(i < 3 ? batch->seen[RPF_SEEN_BASE + i] : 1.0f, batch->count,
                 out->albedo + i * out->albedo_plane + batch->x);
-  __global float* cell = out->cells + batch->x * out->cell_stride + 2 * RPF_SAMPLE_FEATURES;
+  float* cell = batch->pixels + 2 * RPF_SAMPLE_FEATURES;
   float rest[(RPF_STATISTICS - RPF_LANES) * RPF_LANES];
   for (int k = RPF_LANES; k < RPF_STATISTICS; ++k) vstore16(statistics[k], k - RPF_LANES, rest);
   transpose(statistics);
-  for (int i = 0; i < batch->count; ++i, cell += out->cell_stride) {
+  for (int i = 0; i < batch->count; ++i, cell += RPF_PIXEL_STRIDE) {
     vstore16(statistics[i], 0, cell);
     for (int k = RPF_LANES; k < RPF_STATISTICS; ++k) cell[k] = rest[(k - RPF_LANES) * RPF_LANES + i];
   }
+  enter_batch(batch, layer, out);
   batch->x += batch->count;
   batch->count = 0;
 }
 
-static void finish_pixel(const PixelMoments* pixel, uint count, __global const int* guide_columns, const RowOut* out,
-                         int x, Batch* batch) {
+static void finish_pixel(const PixelMoments* pixel, uint count, __global const int* guide_columns, const Enter* layer,
+                         const RowOut* out, Batch* batch) {
   const float samples = (float)count, share = 1.0f / samples;
-  finish_features(pixel, share, out->cells + x * out->cell_stride);
   float variances[RPF_SEEN];
   vstore16(variance_of(&pixel->seen, share), 0, variances);
   const int i = batch->count++;
+  finish_features(pixel, share, batch->pixels + i * RPF_PIXEL_STRIDE);
   batch->seen[i] = mean_of(&pixel->seen, share);
   batch->records[i] = mean_of(&pixel->records, share);
   batch->spreads[i] = variance_of(&pixel->records, share);
   batch->luminances[i] = variances[RPF_SEEN_LUMINANCE];
   batch->samples[i] = samples;
-  if (batch->count == RPF_LANES) finish_batch(batch, guide_columns, out);
+  if (batch->count == RPF_LANES) finish_batch(batch, guide_columns, layer, out);
 }
 
 // Pixel x has no samples.
-static void leave_pixel(Batch* batch, __global const int* guide_columns, const RowOut* out, int x) {
-  finish_batch(batch, guide_columns, out);
+static void leave_pixel(Batch* batch, __global const int* guide_columns, const Enter* layer, const RowOut* out, int x) {
+  finish_batch(batch, guide_columns, layer, out);
   batch->x = x + 1;
-  no_samples(out, x);
+  no_samples(layer, out, x);
 }
 
-// Values, guides and albedo of pixels.
+// The first layer of pixels, their guides and albedo. `kept`: what sum() will need of their samples, `pixels`: what the
+// layer reads; no rows where nobody wants it.
 __kernel void see(__global const float* records, __global const int* base_columns, __global const int* input_columns,
                   __global const float* weights1, __global const float* bias1, __global const float* weights2,
                   __global const float* bias2, __global const uint* first_sample, __global const int* guide_columns,
-                  __global float* cells, __global float* guides, __global float* albedo, __global float* trace,
-                  const rpf_samples l, const rpf_grid cell_grid, const rpf_grid guide_grid, const rpf_grid albedo_grid,
-                  const int cell_stride) {
+                  __global const float* enter_weights, __global const float* enter_bias, __global float* entered,
+                  __global float* guides, __global float* albedo, __global float* kept, __global float* pixels,
+                  __global float* trace, const rpf_samples l, const rpf_grid entered_grid, const rpf_grid guide_grid,
+                  const rpf_grid albedo_grid, const rpf_grid kept_grid, const rpf_grid pixel_grid) {
   const Seeing of = {records, base_columns, input_columns, weights1, bias1, weights2, bias2};
+  const Enter layer = {enter_weights, enter_bias};
   RowOut out;
-  out.cell_stride = cell_stride;
+  out.traced = 0;
   out.guides_plane = plane_of(&guide_grid, RPF_GUIDES);
   out.albedo_plane = plane_of(&albedo_grid, RPF_ALBEDO_SUMS);
   Samples samples;
@@ -170,7 +196,8 @@ __kernel void see(__global const float* records, __global const int* base_column
   for (int i = l.first_part + share_of(parts, get_global_id(0)); i < end_of_share; ++i) {
     const Part part = part_of_launch(first_sample, &l, i);
     __global float* albedo_row = albedo + row_at(&albedo_grid, part.y);
-    out.cells = cells + row_at(&cell_grid, part.y) + RPF_BORDER * cell_stride;
+    out.entered = entered + row_at(&entered_grid, part.y) + RPF_BORDER * RPF_ENTER_STRIDE;
+    if (pixel_grid.rows > 0) out.traced = pixels + row_at(&pixel_grid, part.y) + RPF_BORDER * RPF_PIXEL_STRIDE;
     out.guides = guides + row_at(&guide_grid, part.y) + RPF_MARGIN;
     out.albedo = albedo_row + RPF_MARGIN;
     close_planes(albedo_row, out.albedo_plane, RPF_ALBEDO_SUMS, part.begin, part.end, l.area.width, -0.0f);
@@ -181,17 +208,20 @@ __kernel void see(__global const float* records, __global const int* base_column
     for (uint first = first_of_pixel(&part, x); first < end; first += RPF_SAMPLES_AT_ONCE) {
       see_samples(&of, &l, first, min(end - first, (uint)RPF_SAMPLES_AT_ONCE), &samples);
       if (l.is_traced) keep_samples(&samples, trace);
+      if (kept_grid.rows > 0) keep_for_sum(&samples, kept + kept_at(&kept_grid, &part, first));
       for (uint s = 0; s < samples.count;) {
         const Stretch stretch = stretch_of(&part, x, &samples, s);
-        for (; x < stretch.x; ++x) leave_pixel(&batch, guide_columns, &out, x);
+        for (; x < stretch.x; ++x) leave_pixel(&batch, guide_columns, &layer, &out, x);
         add_stretch(&samples, &stretch, &pixel);
         if (stretch.ends)
-          finish_pixel(&pixel, first_of_pixel(&part, x + 1) - first_of_pixel(&part, x), guide_columns, &out, x, &batch);
+          finish_pixel(&pixel, first_of_pixel(&part, x + 1) - first_of_pixel(&part, x), guide_columns, &layer, &out,
+                       &batch);
         x += stretch.ends;
         s = stretch.to;
       }
     }
-    finish_batch(&batch, guide_columns, &out);
-    for (; x < part.end; ++x) no_samples(&out, x);
+    finish_batch(&batch, guide_columns, &layer, &out);
+    for (; x < part.end; ++x) no_samples(&layer, &out, x);
+    close_row(out.entered, RPF_ENTER_STRIDE, part.begin, part.end, l.area.width);
   }
 }

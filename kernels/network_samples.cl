@@ -26,6 +26,8 @@ static void sample1(const float* computed, __global const float* records, __glob
                     int variables, __global const float* weights, __global const float* bias, float* out, int count);
 static void sample2(const float* own, __global const float* weights, __global const float* bias, float* out, int count);
 static void weight1(const float* own, __global const float* weights, __global const float* bias, float* out, int count);
+// The same over pixels side by side, [pixel][RPF_PIXEL_STRIDE] to [pixel][RPF_ENTER_STRIDE].
+static void enter(const float* own, __global const float* weights, __global const float* bias, float* out, int count);
 
 // The first RPF_LANES values of RPF_LANES records; zeros for those behind the launch's last one, where there is nothing
 // to be read.
@@ -60,10 +62,9 @@ static void compute_inputs(const Seeing* of, const rpf_samples* l, float16* colu
     rows[RPF_SEEN_INPUTS + RPF_INPUT_BRIGHTNESS_OVER + i] = rpf_brightness_over(color, base);
     rows[RPF_SEEN_COLOR + i] = color;
     rows[RPF_SEEN_BASE + i] = base;
+    rows[RPF_SEEN_RADIANCE + i] = columns[i];
   }
   rows[RPF_SEEN_LUMINANCE] = rpf_luminance(rows[RPF_SEEN_COLOR], rows[RPF_SEEN_COLOR + 1], rows[RPF_SEEN_COLOR + 2]);
-#pragma unroll
-  for (int i = RPF_SEEN_BASE + 3; i < RPF_SEEN; ++i) rows[i] = 0.0f;
   transpose(rows);
 #pragma unroll
   for (int i = 0; i < RPF_LANES; ++i) vstore16(rows[i], (size_t)i, seen);
@@ -98,6 +99,35 @@ static void keep_samples(const Samples* samples, __global float* trace) {
   }
 }
 
+// What sum() needs of samples, where there is room to keep it: [sample][features, then what is summed].
+#define RPF_KEPT (RPF_HIDDEN_STRIDE + 8)
+
+// What stands there for the next samples, to be read or written.
+static void ask_for_kept(__global const float* kept) {
+  for (uint k = 0; k < RPF_KEPT; k += 16) ask_for(kept + RPF_SAMPLES_AT_ONCE * RPF_KEPT + k);
+}
+
+static void keep_for_sum(const Samples* samples, __global float* kept) {
+  for (uint s = 0; s < samples->count; ++s, kept += RPF_KEPT) {
+    ask_for_kept(kept);
+    for (uint k = 0; k < RPF_HIDDEN_STRIDE; k += 8)
+      vstore8(vload8(0, samples->features + s * RPF_FEATURE_STRIDE + k), 0, kept + k);
+    vstore8(vload8(0, samples->seen + s * RPF_SEEN + RPF_SEEN_SUMMED), 0, kept + RPF_HIDDEN_STRIDE);
+  }
+}
+
+// `count` samples from `first` on as keep_for_sum() left them; the rest of what is computed of them is not there.
+static void kept_samples(__global const float* kept, uint first, uint count, Samples* samples) {
+  samples->first = first;
+  samples->count = count;
+  for (uint s = 0; s < count; ++s, kept += RPF_KEPT) {
+    ask_for_kept(kept);
+    for (uint k = 0; k < RPF_HIDDEN_STRIDE; k += 8)
+      vstore8(vload8(0, kept + k), 0, samples->features + s * RPF_FEATURE_STRIDE + k);
+    vstore8(vload8(0, kept + RPF_HIDDEN_STRIDE), 0, samples->seen + s * RPF_SEEN + RPF_SEEN_SUMMED);
+  }
+}
+
 // ---- where pixels begin and end -------------------------------------------------------------------------------------
 
 // A part of a row of pixels: where each begins among the samples of the launch.
@@ -118,6 +148,11 @@ static Part part_of_launch(__global const uint* first_sample, const rpf_samples*
 }
 
 static uint first_of_pixel(const Part* part, int x) { return part->first_sample[x] - part->first_of_launch; }
+
+// Where a sample stands in a grid of rows of samples.
+static size_t kept_at(const rpf_grid* grid, const Part* part, uint sample) {
+  return row_at(grid, part->y) + (size_t)(sample - first_of_pixel(part, 0)) * RPF_KEPT;
+}
 
 // Samples from .. to - 1, of those at hand, of pixel x: all of them, or some where a pixel has more than are at hand.
 typedef struct {

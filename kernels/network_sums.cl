@@ -1,14 +1,13 @@
 // Weights of samples in the learned estimator, and the sums of pixels.
 
-// The sums of a pixel's weighted samples, of RPF_LANES values at once.
+// The sums of a pixel's weighted samples: of what stands in RPF_SEEN from RPF_SEEN_SUMMED on.
 typedef struct {
-  float16 records, seen;
+  float8 seen;
   float weight;
 } PixelSums;
 
 static PixelSums no_sums(void) {
   PixelSums sums;
-  sums.records = 0.0f;
   sums.seen = 0.0f;
   sums.weight = 0.0f;
   return sums;
@@ -18,8 +17,7 @@ static void add_weighted(const Samples* samples, const Stretch* stretch, const f
   PixelSums sums = stretch->begins ? no_sums() : *pixel;
   for (uint s = stretch->from; s < stretch->to; ++s) {
     const float weight = weights[s];
-    sums.records = fma((float16)weight, vload16(s, samples->records), sums.records);
-    sums.seen = fma((float16)weight, vload16(s, samples->seen), sums.seen);
+    sums.seen = fma((float8)weight, vload8(0, samples->seen + s * RPF_SEEN + RPF_SEEN_SUMMED), sums.seen);
     sums.weight = rpf_added(sums.weight, weight);
   }
   *pixel = sums;
@@ -39,11 +37,10 @@ static void add_weighted_others(__global const float* others, const rpf_samples*
 }
 
 static void finish_sums(const PixelSums* pixel, __global float* sums, int plane, int x) {
-  float records[RPF_LANES], seen[RPF_SEEN];
-  vstore16(pixel->records, 0, records);
-  vstore16(pixel->seen, 0, seen);
+  float seen[RPF_SEEN];
+  vstore8(pixel->seen, 0, seen + RPF_SEEN_SUMMED);
   for (int k = 0; k < 3; ++k) {
-    sums[(RPF_SUM_RADIANCE + k) * plane + x] = records[k];
+    sums[(RPF_SUM_RADIANCE + k) * plane + x] = seen[RPF_SEEN_RADIANCE + k];
     sums[(RPF_SUM_BASE + k) * plane + x] = seen[RPF_SEEN_BASE + k];
   }
   sums[RPF_SUM_WEIGHT * plane + x] = pixel->weight;
@@ -81,15 +78,16 @@ static void weigh_samples(const float* hidden, __global const float* output, __g
     weights[s] = weights[s] * (file_weights[samples->first + s] * l->weight_scale);
 }
 
-// Sums of the pixels' weighted samples, from what the head says of them; what comes before is computed once more.
-// `others`: what is carried beside the color; whatever where there is nothing.
+// Sums of the pixels' weighted samples, from what the head says of them and from what was kept; where there was no room
+// (a grid without rows) what comes before is computed once more. `others`: what is carried beside the color; whatever
+// where there is nothing.
 __kernel void sum(__global const float* records, __global const int* base_columns, __global const int* input_columns,
                   __global const float* weights1, __global const float* bias1, __global const float* weights2,
                   __global const float* bias2, __global const uint* first_sample, __global const float* heads,
                   __global const float* hidden_weights, __global const float* hidden_bias, __global const float* output,
-                  __global const float* file_weights, __global const float* others, __global float* sums,
-                  __global float* trace, const rpf_samples l, const rpf_grid head_grid, const rpf_grid grid,
-                  const int head_stride) {
+                  __global const float* file_weights, __global const float* others, __global const float* kept,
+                  __global float* sums, __global float* trace, const rpf_samples l, const rpf_grid head_grid,
+                  const rpf_grid kept_grid, const rpf_grid grid, const int head_stride) {
   const Seeing of = {records, base_columns, input_columns, weights1, bias1, weights2, bias2};
   const int planes = (int)rpf_sums((uint)l.carried), plane = plane_of(&grid, planes);
   Samples samples;
@@ -105,7 +103,11 @@ __kernel void sum(__global const float* records, __global const int* base_column
     int x = part.begin;  // the first pixel that is not finished
     const uint end = first_of_pixel(&part, part.end);
     for (uint first = first_of_pixel(&part, x); first < end; first += RPF_SAMPLES_AT_ONCE) {
-      see_samples(&of, &l, first, min(end - first, (uint)RPF_SAMPLES_AT_ONCE), &samples);
+      const uint count = min(end - first, (uint)RPF_SAMPLES_AT_ONCE);
+      if (kept_grid.rows > 0)
+        kept_samples(kept + kept_at(&kept_grid, &part, first), first, count, &samples);
+      else
+        see_samples(&of, &l, first, count, &samples);
       add_context(&part, x, head_row, head_stride, &samples);
       weight1(samples.features, hidden_weights, hidden_bias, hidden, (int)samples.count);
       weigh_samples(hidden, output, file_weights, &l, &samples, weights);

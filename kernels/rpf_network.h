@@ -75,20 +75,16 @@ RPF_INLINE uint rpf_pixel_values(uint sample_features) { return 2 * sample_featu
 
 // ---- head -----------------------------------------------------------------------------------------------------------
 
-#define RPF_CONTEXT 8        // values from 0 on
-#define RPF_HEAD_BLEND 8     // 1
-#define RPF_COLOR_PASSES 4   // dilations 8, 4, 2, 1
-#define RPF_ALBEDO_PASSES 2  // dilations 2, 1
-#define RPF_NETWORK_PASSES 6
+#define RPF_CONTEXT 8           // values from 0 on
+#define RPF_HEAD_BLEND 8        // 1
 #define RPF_PASS_REACH 2        // 5 x 5 taps, in dilations
 #define RPF_WEIGHT_FEATURES 16  // outputs of weight1
 
-// Where pass p stands in the head: E embedding values, the log own weight, RPF_GUIDES log bandwidths.
+// Where a pass stands in the head: E embedding values, the log own weight, RPF_GUIDES log bandwidths. Behind the last
+// one ends the head.
 RPF_INLINE uint rpf_head_pass(uint pass, uint embedding) {
   return RPF_HEAD_BLEND + 1 + pass * (embedding + 1 + RPF_GUIDES);
 }
-RPF_INLINE uint rpf_head_values(uint embedding) { return rpf_head_pass(RPF_NETWORK_PASSES, embedding); }
-RPF_INLINE int rpf_dilation(uint pass) { return pass < RPF_COLOR_PASSES ? 8 >> pass : 2 >> (pass - RPF_COLOR_PASSES); }
 
 // ---- sums of a pixel ------------------------------------------------------------------------------------------------
 

@@ -1,6 +1,7 @@
 """The learned estimator of docs/network.md in PyTorch: inputs, network, sums. Shapes are [channel, sample, y, x] for samples
 and [channel, y, x] for pixels; one frame at a time."""
 import math
+from dataclasses import dataclass
 from pathlib import Path
 
 import torch
@@ -13,11 +14,30 @@ SAMPLE = dict(color=slice(0, 3), normal=slice(3, 6), albedo=slice(6, 9), positio
               film=slice(21, 23), light=slice(23, 25), bsdf=slice(25, 27))
 SAMPLE_CHANNELS = 27
 INPUTS = 30
-CONTEXT, EMBEDDING, BANDWIDTHS = 8, 8, 10
-DILATIONS, ALBEDO_DILATIONS = (8, 4, 2, 1), (2, 1)
-PASS_VALUES = EMBEDDING + 1 + BANDWIDTHS
+# Inputs from 16 on by what a network can do without; passes are guided by those before.
+SPARED = dict(second=slice(16, 21), lens=slice(21, 23), time=slice(23, 24), film=slice(24, 26), light=slice(26, 28), bsdf=slice(28, 30))
+CONTEXT, BANDWIDTHS = 8, 10
 STATISTICS = 18
 ALBEDO_FLOOR = 0.05
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What a network file says of a network beside its weights."""
+    channels: tuple  # of each level
+    sample_features: int
+    embedding: int = 8  # values of a pass
+    dilations: tuple = (8, 4, 2, 1)  # of the passes of the color, then of the albedo
+    albedo_dilations: tuple = (2, 1)
+
+    @property
+    def pass_values(self):
+        return self.embedding + 1 + BANDWIDTHS
+
+    @property
+    def head_groups(self):
+        """Outputs of the head."""
+        return [CONTEXT, 1] + [self.pass_values] * (len(self.dilations) + len(self.albedo_dilations))
 
 _pass = load("rpf_weighted_pass", [str(Path(__file__).with_name("weighted_pass.cpp"))],
              extra_cflags=["-O3", "-march=native", "-ffast-math", "-fopenmp"])
@@ -89,17 +109,16 @@ def pixel_statistics(samples, inputs):
 class Network(torch.nn.Module):
     """All layers, named as in docs/network.md."""
 
-    def __init__(self, channels, sample_features):
+    def __init__(self, shape):
         super().__init__()
-        self.channels, self.sample_features = list(channels), sample_features
-        s, c, top = sample_features, self.channels, len(channels) - 1
+        self.shape = shape
+        s, c, top = shape.sample_features, shape.channels, len(shape.channels) - 1
         layers = {"sample1": (INPUTS, s, 1), "sample2": (s, s, 1), "enter": (2 * s + STATISTICS, c[0], 1), "down0": (c[0], c[0], 3)}
         for l in range(1, top + 1):
             layers[f"down{l}a"], layers[f"down{l}b"] = (c[l - 1], c[l], 3), (c[l], c[l], 3)
         for l in range(top - 1, -1, -1):
             layers[f"up{l}a"], layers[f"up{l}b"] = (c[l + 1] + c[l], c[l], 3), (c[l], c[l], 3)
-        passes = len(DILATIONS) + len(ALBEDO_DILATIONS)
-        layers["head"] = (c[0], CONTEXT + 1 + passes * PASS_VALUES, 1)
+        layers["head"] = (c[0], sum(shape.head_groups), 1)
         layers["weight1"], layers["weight2"] = (s + CONTEXT, 16, 1), (16, 1, 1)
         self.layers = torch.nn.ModuleDict({name: torch.nn.Conv2d(i, o, k) for name, (i, o, k) in layers.items()})
         self.initialize()
@@ -110,10 +129,15 @@ class Network(torch.nn.Module):
             torch.nn.init.zeros_(layer.bias)
         with torch.no_grad():  # starts as a moderate filter guided by the features
             self.layers["head"].weight.mul_(0.3)
-            for p in range(len(DILATIONS) + len(ALBEDO_DILATIONS)):
-                first = CONTEXT + 1 + p * PASS_VALUES + EMBEDDING + 1
-                self.layers["head"].bias[first:first + BANDWIDTHS] = 0.5
+            for bias in self.layers["head"].bias.split(self.shape.head_groups)[2:]:
+                bias[-BANDWIDTHS:] = 0.5
             self.layers["weight2"].weight.mul_(0.1)
+
+    @torch.no_grad()
+    def do_without(self, groups):
+        """Inputs of SPARED without any weight: rpf does not even read them."""
+        for group in groups:
+            self.layers["sample1"].weight[:, SPARED[group]] = 0
 
     def layer(self, name, x, activate=True):
         """x: [channel, ...]; dense layers see every position by itself."""
@@ -125,7 +149,7 @@ class Network(torch.nn.Module):
         return F.leaky_relu(y, 0.1) if activate else y
 
     def unet(self, x):
-        top = len(self.channels) - 1
+        top = len(self.shape.channels) - 1
         skips = [self.layer("down0", self.layer("enter", x))]
         for l in range(1, top + 1):
             x = halve(skips[-1])
@@ -143,24 +167,25 @@ class Network(torch.nn.Module):
         statistics = pixel_statistics(samples, inputs)
         x = torch.cat([h.mean(1), (variance(h) + 1e-4).sqrt(), statistics])
         head = self.layer("head", self.unet(x), activate=False)
-        context, blend, *pass_values = head.split([CONTEXT, 1] + [PASS_VALUES] * (len(DILATIONS) + len(ALBEDO_DILATIONS)))
+        context, blend, *pass_values = head.split(self.shape.head_groups)
         context = context[:, None].expand(-1, h.shape[1], -1, -1)
         logits = self.layer("weight2", self.layer("weight1", torch.cat([h, context])), activate=False)
         weight = logits.clamp(-8, 8).exp()
         sums = torch.cat([weight * samples[:3], weight * base, weight]).sum(1)
         features = statistics[4:14]
-        sums = weighted_passes(pass_values, features, sums, DILATIONS)
+        dilations, albedo_dilations = self.shape.dilations, self.shape.albedo_dilations
+        sums = weighted_passes(pass_values, features, sums, dilations)
         plain = sums[:3] / sums[6:7]
         if not has_albedo:
             return plain
-        albedo = weighted_passes(pass_values[len(DILATIONS):], features, base.mean(1), ALBEDO_DILATIONS)
+        albedo = weighted_passes(pass_values[len(dilations):], features, base.mean(1), albedo_dilations)
         return plain + torch.sigmoid(blend.clamp(-20, 20)) * (sums[:3] / sums[3:6] * albedo - plain)
 
 
 def weighted_passes(pass_values, features, values, dilations):
     """One pass for each dilation, with the head's values for it."""
     for head, dilation in zip(pass_values, dilations):
-        embedding, own, bandwidth = head.split([EMBEDDING, 1, BANDWIDTHS])
+        embedding, own, bandwidth = head.split([len(head) - 1 - BANDWIDTHS, 1, BANDWIDTHS])
         axes = torch.cat([embedding.clamp(-1000, 1000), bandwidth.clamp(-6, 6).exp() * features])
         values = WeightedPass.apply(axes, own[0].clamp(-8, 8).exp(), values, dilation)
     return values

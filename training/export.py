@@ -1,16 +1,17 @@
 """Writes a checkpoint's network as the file that `rpf --model` reads (docs/network.md, "File").
 
-Usage: export.py CHECKPOINT OUT.rpfnet --name NAME [--note TEXT] [--start NETWORK.rpfnet --share 0.6]
+Usage: export.py CHECKPOINT OUT.rpfnet --name NAME [--note TEXT] [--start NETWORK.rpfnet --share 0.6] [--without film,light,bsdf]
 --start: the network that training went on from, or that it widened; of its way from there this share is taken, which errs less on new
-frames than either end.
+frames than either end. --without: as train.py has it, where a network hardly misses these inputs.
 """
 import argparse
+import dataclasses
 import json
 
 import numpy as np
 import torch
 
-from estimator import EMBEDDING, Network
+from estimator import Network, Shape
 from widen import widen
 
 
@@ -21,12 +22,18 @@ def layer_values(layer):
 
 
 def write(network, path, name, note):
-    header = dict(format="rpf-network", version=1, name=name, sample_features=network.sample_features, channels=network.channels,
-                  embedding=EMBEDDING, training=note)
+    header = dict(format="rpf-network", version=2, name=name, **dataclasses.asdict(network.shape), training=note)
     with open(path, "wb") as file:
         file.write(json.dumps(header).encode() + b"\n")
         for layer in network.layers.values():
             layer_values(layer).astype("<f2").tofile(file)
+
+
+def shape_of(header):
+    """Of the header of a file, or of what a checkpoint says. Files of version 1 do not say which passes there are: those of a Shape."""
+    is_list = lambda name: isinstance(header[name], list)
+    known = [field.name for field in dataclasses.fields(Shape) if field.name in header]
+    return Shape(**{name: tuple(header[name]) if is_list(name) else header[name] for name in known})
 
 
 def read(path):
@@ -34,7 +41,7 @@ def read(path):
     with open(path, "rb") as file:
         header = json.loads(file.readline())
         values = torch.from_numpy(np.frombuffer(file.read(), "<f2").astype(np.float32))
-    network = Network(header["channels"], header["sample_features"])
+    network = Network(shape_of(header))
     for layer in network.layers.values():
         outputs, inputs, width, _ = layer.weight.shape
         weights, bias, values = values.split([layer.weight.numel(), outputs, len(values) - layer.weight.numel() - outputs])
@@ -45,7 +52,7 @@ def read(path):
 
 def network_of(state):
     """The network of a checkpoint, with the averaged weights."""
-    network = Network(state["channels"], state["sample_features"])
+    network = Network(Shape(**state["shape"]))
     network.load_state_dict(state["average"])
     return network
 
@@ -53,7 +60,7 @@ def network_of(state):
 def part_of_the_way(start, end, share, seed):
     """Weights between those of a network and of the one that training made of it, which may be wider: as a run with this seed begins."""
     torch.manual_seed(seed)
-    wide = Network(end.channels, end.sample_features)
+    wide = Network(end.shape)
     widen(start, wide)
     first = wide.state_dict()
     end.load_state_dict({name: torch.lerp(first[name], last, share) for name, last in end.state_dict().items()})
@@ -73,6 +80,7 @@ def main():
     parser.add_argument("--note", default="")
     parser.add_argument("--start")
     parser.add_argument("--share", type=float, default=1)
+    parser.add_argument("--without", type=lambda text: text.split(","), default=())
     args = parser.parse_args()
     state = torch.load(args.checkpoint, weights_only=False)
     facts = f"seed {state['seed']}, {state['step']} steps, {state['seconds'] / 3600:.2f} hours, PyTorch {state['torch']}"
@@ -80,6 +88,7 @@ def main():
     if args.start:
         network = part_of_the_way(any_network(args.start), network, args.share, state["seed"])
         facts += f", {args.share:g} of the way"
+    network.do_without(args.without)
     write(network, args.out, args.name, f"{args.note}{'; ' if args.note else ''}{facts}")
 
 

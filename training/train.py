@@ -1,13 +1,16 @@
 """Trains one network. Resumable: all state is in --run, written every few minutes; stop it at any time.
 
 Usage: train.py --run DIR --frames CACHE --validation CACHE --hours H [--channels 16,24,32,48] [--sample-features 8] [--seed 1]
+                [--embedding 8] [--dilations 8,4,2,1] [--albedo-dilations 2,1] [--without second,lens,time,film,light,bsdf]
                 [--start CHECKPOINT|NETWORK.rpfnet] [--rate 1e-3]
---start goes on from a network that is as wide or narrower (widen.py): a checkpoint's or one that ships; its rate may be lower.
+--start goes on from a network that is as wide or narrower (widen.py): a checkpoint's or one that ships; its rate may be lower. Passes
+begin as those of the nearest dilation. --without: groups of inputs that the network shall not look at, which costs less.
 CACHE holds NAME.samples.npy ([27, n, y, x], frames.py) and NAME.ref.npy ([3, y, x]), exposed alike, and NAME.exposure.npy
 (training/scenes/to_frames.py); it may grow during training.
 The learning rate follows the hours spent (of one core), so a run that is interrupted ends with the same schedule.
 """
 import argparse
+import dataclasses
 import json
 import math
 import sys
@@ -20,7 +23,7 @@ import torch.nn.functional as F
 
 import export
 from augment import augmented, part_shape
-from estimator import Network
+from estimator import Network, Shape
 from optimizer import Optimizer
 from widen import widen
 
@@ -79,9 +82,10 @@ class Run:
         self.args, self.folder = args, Path(args.run)
         self.folder.mkdir(parents=True, exist_ok=True)
         torch.manual_seed(args.seed)
-        self.network = Network([int(c) for c in args.channels.split(",")], args.sample_features)
+        self.network = Network(Shape(args.channels, args.sample_features, args.embedding, args.dilations, args.albedo_dilations))
         if args.start:
             widen(export.any_network(args.start), self.network)
+        self.network.do_without(args.without)
         self.average = {k: v.clone() for k, v in self.network.state_dict().items()}
         self.optimizer = Optimizer(self.network)
         self.step, self.seconds, self.recent = 0, 0.0, []
@@ -99,7 +103,7 @@ class Run:
     def save(self):
         state = dict(network=self.network.state_dict(), optimizer=self.optimizer.state_dict(), average=self.average, step=self.step,
                      seconds=self.seconds, rng=self.rng.bit_generator.state, torch_rng=torch.get_rng_state(),
-                     channels=self.network.channels, sample_features=self.network.sample_features, seed=self.args.seed, torch=torch.__version__)
+                     shape=dataclasses.asdict(self.network.shape), seed=self.args.seed, torch=torch.__version__)
         torch.save(state, self.folder / "checkpoint.tmp")
         (self.folder / "checkpoint.tmp").replace(self.folder / "checkpoint.pt")
 
@@ -118,6 +122,7 @@ class Run:
         norm = torch.nn.utils.clip_grad_norm_(self.network.parameters(), LONGEST_GRADIENT)
         if torch.isfinite(norm):
             self.optimizer.step()
+            self.network.do_without(self.args.without)
             decay = min(AVERAGE, self.step / (self.step + 10))
             for k, v in self.network.state_dict().items():
                 self.average[k].lerp_(v, 1 - decay)
@@ -127,7 +132,7 @@ class Run:
     @torch.no_grad()
     def validate(self, frames):
         """{samples a pixel: geometric mean of the frames' errors}"""
-        network = Network(self.network.channels, self.network.sample_features)
+        network = Network(self.network.shape)
         network.load_state_dict(self.average)
         errors = {}
         for name in frames.names:
@@ -166,14 +171,22 @@ class Run:
                 saved = time.monotonic()
 
 
+def numbers(text):
+    return tuple(int(number) for number in text.split(",") if number)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--run", required=True)
     parser.add_argument("--frames", required=True)
     parser.add_argument("--validation", required=True)
     parser.add_argument("--hours", type=float, required=True)
-    parser.add_argument("--channels", default="16,24,32,48")
+    parser.add_argument("--channels", type=numbers, default=(16, 24, 32, 48))
     parser.add_argument("--sample-features", type=int, default=8)
+    parser.add_argument("--embedding", type=int, default=Shape.embedding)
+    parser.add_argument("--dilations", type=numbers, default=Shape.dilations)
+    parser.add_argument("--albedo-dilations", type=numbers, default=Shape.albedo_dilations)
+    parser.add_argument("--without", type=lambda text: text.split(","), default=())
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--start")
     parser.add_argument("--rate", type=float, default=1e-3)

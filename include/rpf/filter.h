@@ -82,7 +82,8 @@ struct Result {
 Result filter(SampleBuffer samples, const Settings& settings, const Control& control = {});
 
 /// The slots of a layout that filter() uses with these settings; without the others the result has the same bits. Notes
-/// about channels that are left out are then missing. Throws Error(usage) for a group that the layout does not have.
+/// about channels that are left out are then missing. Throws Error(usage) for a group that the layout does not have,
+/// and for a model that cannot be found; Error(input) for one that is none.
 std::vector<std::string> needed_slots(const SampleLayout& layout, const Settings& settings);
 
 /// What a memory estimate needs to know of a frame.

@@ -18,6 +18,16 @@ Cost now() {
   return {seconds(usage.ru_utime) + seconds(usage.ru_stime), wall.count()};
 }
 
+/// What the filter takes of the file, as the command reads it.
+SampleBuffer read_frame(const FrameJob& job) {
+  SampleLayout all;
+  for (const SampleFileChannel& channel : inspect_samples(job.samples, job.read).channels)
+    if (!channel.slot.empty()) all.slots.push_back(channel.slot);
+  SampleReadOptions read = job.read;
+  read.slots = needed_slots(all, job.settings);
+  return read_samples(job.samples, read);
+}
+
 }  // namespace
 
 CostClock::CostClock() : start_(now()) {}
@@ -29,7 +39,7 @@ Cost CostClock::elapsed() const {
 
 void warm_up(const FrameJob& job, const Control& control) {
   Settings settings = job.settings;
-  SampleBuffer samples = read_samples(job.samples, job.read);
+  SampleBuffer samples = read_frame(job);
   const Window frame = settings.crop.value_or(samples.data_window);
   settings.crop = Window{frame.x + frame.width / 2, frame.y + frame.height / 2, 1, 1};
   filter(std::move(samples), settings, control);
@@ -37,7 +47,7 @@ void warm_up(const FrameJob& job, const Control& control) {
 
 FrameRun run_frame(const FrameJob& job, const Control& control) {
   const CostClock clock;
-  SampleBuffer samples = read_samples(job.samples, job.read);
+  SampleBuffer samples = read_frame(job);
   const CostClock filtering;
   Result result = filter(std::move(samples), job.settings, control);
   FrameRun run{clock.elapsed(), filtering.elapsed(), std::move(result.report), {}};

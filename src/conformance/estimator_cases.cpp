@@ -9,7 +9,7 @@ namespace rpf {
 namespace {
 
 /// Small, and with every kind of step: three levels, sizes that are and that are not whole vectors.
-std::shared_ptr<const Network> small_network() { return random_network(1, 16, {16, 24, 40}, 5); }
+std::shared_ptr<const Network> small_network() { return random_network(1, {16, {16, 24, 40}, 5}); }
 
 class EstimatorCases {
  public:
@@ -58,19 +58,18 @@ void add_frames(EstimatorCases& list) {
 void add_networks(EstimatorCases& list) {
   const struct {
     const char* name;
-    int features;
-    std::vector<int> channels;
-    int embedding;
-  } shapes[] = {{"one-level", 8, {8}, 1},
-                {"two-levels", 24, {24, 40}, 8},
-                {"wide", 24, {32, 64, 96, 128}, 10},
-                {"odd", 5, {7, 12, 9}, 3},
-                {"four-levels", 24, {24, 40, 64, 80}, 8},
-                {"deep", 8, {8, 8, 16, 16, 24, 24}, 21}};
-  for (const auto& shape : shapes)
-    list.add(fmt::format("network/{}", shape.name), [&](ConformanceCase& c) {
-      c.network = random_network(2, shape.features, shape.channels, shape.embedding);
-    });
+    NetworkShape shape;
+  } networks[] = {{"one-level", {8, {8}, 1}},
+                  {"two-levels", {24, {24, 40}, 8}},
+                  {"wide", {24, {32, 64, 96, 128}, 10}},
+                  {"odd", {5, {7, 12, 9}, 3}},
+                  {"four-levels", {24, {24, 40, 64, 80}, 8}},
+                  {"deep", {8, {8, 8, 16, 16, 24, 24}, 21}},
+                  {"one-pass", {8, {8, 16}, 4, {1}, {1}}},
+                  {"more-passes", {8, {8, 16}, 4, {1, 8, 3, 5, 2}, {7, 1, 3}}}};
+  for (const auto& [name, shape] : networks)
+    list.add(fmt::format("network/{}", name),
+             [&shape = shape](ConformanceCase& c) { c.network = random_network(2, shape); });
   for (const EmbeddedNetwork& embedded : embedded_networks())
     list.add(fmt::format("network/{}", embedded.name), [&](ConformanceCase& c) {
       c.network = find_network(embedded.name);

@@ -12,14 +12,8 @@ constexpr double gain = 2.4;
 
 }  // namespace
 
-std::shared_ptr<const Network> random_network(std::uint32_t seed, int sample_features, const std::vector<int>& channels,
-                                              int embedding) {
-  auto network = std::make_shared<Network>();
-  network->name = "random";
-  network->sample_features = sample_features;
-  network->channels = channels;
-  network->embedding = embedding;
-  network->layers = layers_of(sample_features, channels, embedding);
+std::shared_ptr<const Network> random_network(std::uint32_t seed, const NetworkShape& shape) {
+  auto network = std::make_shared<Network>(Network{shape, "random", "", layers_of(shape)});
   std::uint32_t counter = 0;
   const auto signed_unit = [&] {
     const std::uint32_t word = kernel::rpf_hash(counter++, seed, 2).x;

@@ -3,14 +3,12 @@
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "learned/network.h"
 
 namespace rpf {
 
 /// Weights are large enough that values neither vanish nor all saturate on the way through the layers.
-std::shared_ptr<const Network> random_network(std::uint32_t seed, int sample_features, const std::vector<int>& channels,
-                                              int embedding);
+std::shared_ptr<const Network> random_network(std::uint32_t seed, const NetworkShape& shape);
 
 }  // namespace rpf

@@ -52,8 +52,9 @@ double Estimate::work(const EstimatePlan& plan, const Window& window, double sam
     if (l + 1 < n.levels()) sum += cells * (products(n.up(l, false)) + products(n.up(l, true)));
   }
   const auto pixels = static_cast<double>(window.pixel_count());
-  sum += pixels * RPF_COLOR_PASSES * passing(n, kernel::rpf_sums(static_cast<uint>(plan.carried)));
-  return plan.has_albedo ? sum + pixels * RPF_ALBEDO_PASSES * passing(n, RPF_ALBEDO_SUMS) : sum;
+  const int color_passes = n.color_passes(), albedo_passes = plan.has_albedo ? n.passes() - color_passes : 0;
+  return sum + pixels * (color_passes * passing(n, kernel::rpf_sums(static_cast<uint>(plan.carried))) +
+                         albedo_passes * passing(n, RPF_ALBEDO_SUMS));
 }
 
 std::uint64_t Estimate::bytes(const EstimatePlan& plan, const Window& window) {
@@ -179,9 +180,9 @@ void Estimate::sum_samples() {
   keep("sums", sums_);
 }
 
-PassWeights Estimate::weights_of(uint pass) {
+PassWeights Estimate::weights_of(int pass) {
   const auto embedding = static_cast<uint>(network_.embedding);
-  const uint values = embedding + 1 + RPF_GUIDES, first = kernel::rpf_head_pass(pass, embedding);
+  const uint values = embedding + 1 + RPF_GUIDES, first = kernel::rpf_head_pass(static_cast<uint>(pass), embedding);
   PassWeights weights{Rows(window_.width, window_.height, embedding + RPF_GUIDES),
                       Rows(window_.width, window_.height, 1)};
   for_rows_(window_.height, window_.width * 10.0 * embedding, [&](int y) {
@@ -198,12 +199,12 @@ PassWeights Estimate::weights_of(uint pass) {
   return weights;
 }
 
-void Estimate::run_passes(Rows& values, uint first, uint count) {
-  for (uint pass = first; pass < first + count; ++pass) {
+void Estimate::run_passes(Rows& values, int first, int end) {
+  for (int pass = first; pass < end; ++pass) {
     const PassWeights weights = weights_of(pass);
     Rows means(window_.width, window_.height, values.channels);
     const double work = window_.width * passing(network_, values.channels) - window_.width * 10.0 * network_.embedding;
-    for_rows_(window_.height, work, [&](int y) { filter_row(weights, kernel::rpf_dilation(pass), values, y, means); });
+    for_rows_(window_.height, work, [&](int y) { filter_row(weights, network_.dilation(pass), values, y, means); });
     values = std::move(means);
     keep("pass" + std::to_string(pass), values);
   }
@@ -241,9 +242,9 @@ std::vector<float> Estimate::run() {
   run_layers();
   keep_head();
   sum_samples();
-  run_passes(sums_, 0, RPF_COLOR_PASSES);
+  run_passes(sums_, 0, network_.color_passes());
   keep("albedo", albedo_);
-  if (plan_.has_albedo) run_passes(albedo_, RPF_COLOR_PASSES, RPF_ALBEDO_PASSES);
+  if (plan_.has_albedo) run_passes(albedo_, network_.color_passes(), network_.passes());
   std::vector<float> pixels = results();
   if (stages_) stages_->push_back({"result", plan_.carried, pixels});
   return pixels;

@@ -47,8 +47,8 @@ class Estimate {
   void run_layers();
   void sum_samples();
   void sum_pixel(int x, int y, SampleNetwork& samples);
-  PassWeights weights_of(kernel::uint pass);
-  void run_passes(Rows& values, kernel::uint first, kernel::uint count);
+  PassWeights weights_of(int pass);
+  void run_passes(Rows& values, int first, int end);
   std::vector<float> results();
   void result_of(int x, int y, float* out) const;
 

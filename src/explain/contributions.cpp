@@ -28,7 +28,7 @@ class Pass {
         embedding_(static_cast<uint>(plan.network->embedding)),
         first_(kernel::rpf_head_pass(pass, embedding_)),
         guides_(2 * static_cast<std::size_t>(plan.network->sample_features) + RPF_STATISTIC_GUIDES),
-        dilation_(kernel::rpf_dilation(pass)),
+        dilation_(plan.network->dilation(static_cast<int>(pass))),
         width_(window.width),
         height_(window.height) {}
 
@@ -106,9 +106,10 @@ std::vector<double> within_pixels(const std::vector<EstimateStage>& stages, cons
 }
 
 /// docs/network.md, "Result", where radiance is 1: what the blend with the ratio makes of it.
-void blend_factors(const std::vector<EstimateStage>& stages, std::size_t pixel, std::array<double, 3>& factor) {
-  const float* sums = stage_of(stages, "pass3").of(pixel);
-  const float* albedo = stage_of(stages, "pass5").of(pixel);
+void blend_factors(const Network& network, const std::vector<EstimateStage>& stages, std::size_t pixel,
+                   std::array<double, 3>& factor) {
+  const auto after = [&](int passes) { return stage_of(stages, "pass" + std::to_string(passes - 1)).of(pixel); };
+  const float *sums = after(network.color_passes()), *albedo = after(network.passes());
   const float logit = stage_of(stages, "head").of(pixel)[RPF_HEAD_BLEND];
   const float weight = sums[RPF_SUM_WEIGHT];
   for (std::size_t c = 0; c < 3; ++c)
@@ -119,8 +120,7 @@ void blend_factors(const std::vector<EstimateStage>& stages, std::size_t pixel, 
 }  // namespace
 
 Window region_of_shares(const EstimatePlan& plan, int x, int y) {
-  int reach = 0;
-  for (uint pass = 0; pass < RPF_COLOR_PASSES; ++pass) reach += RPF_PASS_REACH * kernel::rpf_dilation(pass);
+  const int reach = pass_reach(*plan.network);
   const int left = std::max(x - reach, 0), top = std::max(y - reach, 0);
   return {left, top, std::min(x + reach + 1, plan.width) - left, std::min(y + reach + 1, plan.height) - top};
 }
@@ -133,11 +133,11 @@ PixelShares pixel_shares(const EstimatePlan& plan, const std::vector<EstimateSta
   shares.window = window;
   shares.pixels.assign(window.pixel_count(), 0.0);
   shares.pixels[pixel] = 1;
-  for (uint pass = RPF_COLOR_PASSES; pass-- > 0;)
-    shares.pixels = Pass(plan, stages, window, pass).hand_back(shares.pixels);
+  for (int pass = plan.network->color_passes(); pass-- > 0;)
+    shares.pixels = Pass(plan, stages, window, static_cast<uint>(pass)).hand_back(shares.pixels);
   weigh_by_sums(stages, shares.pixels);
   shares.within_pixels = within_pixels(stages, samples);
-  if (plan.has_albedo) blend_factors(stages, pixel, shares.factor);
+  if (plan.has_albedo) blend_factors(*plan.network, stages, pixel, shares.factor);
   return shares;
 }
 

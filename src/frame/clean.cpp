@@ -163,11 +163,12 @@ void Cleaning::add(SampleBuffer& rows, const Seen& seen) {
       },
       [&](std::size_t place, std::uint32_t begin, std::uint32_t end, bool is_marked) {
         most_samples_ = std::max(most_samples_, end - begin);
-        if (findings_.lost.count > lost_.size())
-          lost_.push_back({first + place, end - begin, {}});
-        else if (is_marked)
-          colors_[first + place] = color_of_samples(rows, columns_, begin, end);
-        if (is_marked && seen) seen(place, begin, end);
+        const bool is_lost = findings_.lost.count > lost_.size();
+        if (is_lost) lost_.push_back({first + place, end - begin, {}});
+        if (!is_marked) return;
+        const ColorSum sum = sum_of_colors(rows, columns_, begin, end);
+        if (!is_lost) colors_[first + place] = mean_of(sum);
+        if (seen) seen(place, begin, end, sum);
       });
 }
 
@@ -181,8 +182,9 @@ Marks Cleaning::look(const SampleBuffer& rows, std::size_t first, const Seen& se
       const std::uint32_t begin = rows.first_sample[place], end = rows.first_sample[place + 1];
       conventions_.look(rows, place, first + place, found[n]);
       if (is_any_marked(marks, begin, end)) continue;
-      colors_[first + place] = color_of_samples(rows, columns_, begin, end);
-      if (seen) seen(place, begin, end);
+      const ColorSum sum = sum_of_colors(rows, columns_, begin, end);
+      colors_[first + place] = mean_of(sum);
+      if (seen) seen(place, begin, end, sum);
     }
   };
   const Glance glance(rows.layout, columns_, &conventions_);

@@ -40,6 +40,12 @@ struct Columns {
 /// `clamp_infinite`: as in Settings.
 Columns find_columns(const SampleBuffer& samples, bool clamp_infinite);
 
+/// Of the colors of a pixel's samples, one after the other.
+struct ColorSum {
+  std::array<double, 3> color{};
+  std::uint32_t samples = 0;
+};
+
 /// The mean color of a pixel's samples, where it has one.
 struct PixelColor {
   std::array<float, 3> mean{};
@@ -86,9 +92,10 @@ class Cleaning {
   /// `frame`: may be without its samples. It and the columns outlive this.
   Cleaning(const SampleBuffer& frame, const Columns& columns, const Settings& settings);
 
-  /// Hears of a pixel as soon as it is clean, while the cache still has its samples: its place in the rows, and from
-  /// which to before which sample it has them. Called by several threads at once, and in any order.
-  using Seen = std::function<void(std::size_t place, std::uint32_t begin, std::uint32_t end)>;
+  /// Hears of a pixel as soon as it is clean, while the cache still has its samples: its place in the rows, from which
+  /// to before which sample it has them, and the sum of their colors. Called by several threads at once, and in any
+  /// order.
+  using Seen = std::function<void(std::size_t place, std::uint32_t begin, std::uint32_t end, const ColorSum& sum)>;
 
   /// Cleans the next rows, whose data window is their part of the frame's. Contradictions of the conventions are noted
   /// on the way, of the samples as they were.

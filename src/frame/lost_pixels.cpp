@@ -74,15 +74,19 @@ class Spreading {
 
 }  // namespace
 
-PixelColor color_of_samples(const SampleBuffer& rows, const Columns& columns, std::uint32_t begin, std::uint32_t end) {
+ColorSum sum_of_colors(const SampleBuffer& rows, const Columns& columns, std::uint32_t begin, std::uint32_t end) {
+  ColorSum sum;
+  sum.samples = end - begin;
+  for (std::uint32_t i = begin; i < end; ++i)
+    for (std::size_t c = 0; c < 3; ++c) sum.color[c] += static_cast<double>(rows.record(i)[columns.color[c]]);
+  return sum;
+}
+
+PixelColor mean_of(const ColorSum& sum) {
   PixelColor color;
-  color.is_known = begin < end;
-  const double share = 1.0 / std::max(end - begin, 1U);
-  for (std::size_t c = 0; color.is_known && c < 3; ++c) {
-    double sum = 0;
-    for (std::uint32_t i = begin; i < end; ++i) sum += static_cast<double>(rows.record(i)[columns.color[c]]);
-    color.mean[c] = static_cast<float>(sum * share);
-  }
+  color.is_known = sum.samples > 0;
+  const double share = 1.0 / std::max(sum.samples, 1U);
+  for (std::size_t c = 0; c < 3; ++c) color.mean[c] = static_cast<float>(sum.color[c] * share);
   return color;
 }
 

@@ -11,7 +11,8 @@
 namespace rpf {
 
 /// Of the samples begin .. end - 1.
-PixelColor color_of_samples(const SampleBuffer& rows, const Columns& columns, std::uint32_t begin, std::uint32_t end);
+ColorSum sum_of_colors(const SampleBuffer& rows, const Columns& columns, std::uint32_t begin, std::uint32_t end);
+PixelColor mean_of(const ColorSum& sum);
 
 /// Gives the lost pixels (ascending) a color: the mean of the eight neighbors' where one of them has a color, else what
 /// these got the same way, from the border of a hole to its middle. Returns false and changes nothing where no pixel of

@@ -30,13 +30,25 @@ std::pair<std::size_t, std::size_t> RepackOrder::records(std::size_t turn) const
   return {first, std::min(first + piece_records, count_)};
 }
 
-bool RepackOrder::may_write(std::size_t turn) {
+std::pair<std::size_t, std::size_t> RepackOrder::pieces_below(std::size_t turn) const {
   const auto [first, end] = records(turn);
-  taken_[first / piece_records].store(true, std::memory_order_release);
+  const std::size_t values = piece_records * from_;
+  return {first * width_ / values, std::min((end * width_ - 1) / values, pieces() - 1)};
+}
+
+bool RepackOrder::is_free(std::size_t turn) const {
+  const auto [first, last] = pieces_below(turn);
+  bool is_free = true;
+  for (std::size_t piece = first; in_place_ && is_free && piece <= last; ++piece) is_free = is_taken(piece);
+  return is_free;
+}
+
+bool RepackOrder::may_write(std::size_t turn) {
+  taken_[records(turn).first / piece_records].store(true, std::memory_order_release);
   if (!in_place_) return true;
-  const std::size_t last_piece = std::min((end * width_ - 1) / (piece_records * from_), pieces() - 1);
-  for (std::size_t piece = first * width_ / (piece_records * from_); piece <= last_piece; ++piece)
-    while (!taken_[piece].load(std::memory_order_acquire)) {  // soon: its turn came earlier
+  const auto [first, last] = pieces_below(turn);
+  for (std::size_t piece = first; piece <= last; ++piece)
+    while (!is_taken(piece)) {  // soon: its turn came earlier
       if (must_stop()) return false;
       std::this_thread::yield();
     }

@@ -16,7 +16,7 @@ namespace rpf {
 /// Gives the memory behind the last element back: shrink_to_fit() would copy, and need both at once.
 void release_tail(std::vector<float>& values);
 
-/// Records that a thread makes before it writes them.
+/// Records that a thread makes at once.
 constexpr std::size_t piece_records = 16 * block_records;
 
 struct RepackScratch {
@@ -33,11 +33,17 @@ class RepackOrder {
   std::size_t pieces() const { return taken_.size(); }
   /// The records first .. end - 1 whose turn it is: of longer ones the last come first.
   std::pair<std::size_t, std::size_t> records(std::size_t turn) const;
+  /// Whether nothing is left to be read where those are to be written: they need not be made elsewhere first.
+  bool is_free(std::size_t turn) const;
   /// Says that those were read, and waits until all were that lie where they are to be written. Turns are taken in
   /// ascending order. False: the work is to end.
   bool may_write(std::size_t turn);
 
  private:
+  /// The first and the last piece that lie where those records are to be written.
+  std::pair<std::size_t, std::size_t> pieces_below(std::size_t turn) const;
+  bool is_taken(std::size_t piece) const { return taken_[piece].load(std::memory_order_acquire); }
+
   std::size_t count_, from_, width_;
   bool in_place_;
   std::vector<std::atomic<bool>> taken_;  ///< [piece]
@@ -59,11 +65,13 @@ std::vector<float> repack(SampleBuffer& samples, std::size_t width, const Column
   workers.for_all(0, order.pieces(), [&](std::size_t turn, std::size_t worker) {
     const auto [first, end] = order.records(turn);
     RepackScratch& own = scratch[worker];
+    float* const place = target.data() + first * width;
+    float* const made = order.is_free(turn) ? place : own.made.data();
     for (std::size_t i = first; i < end; i += block_records) {
       own.block.take(samples.values.data() + i * from, std::min(block_records, end - i));
-      make(static_cast<const ColumnBlock&>(own.block), own.made.data() + (i - first) * width);
+      make(static_cast<const ColumnBlock&>(own.block), made + (i - first) * width);
     }
-    if (order.may_write(turn)) std::copy_n(own.made.data(), (end - first) * width, target.data() + first * width);
+    if (order.may_write(turn) && made != place) std::copy_n(made, (end - first) * width, place);
   });
   target.resize(count * width);
   release_tail(target);

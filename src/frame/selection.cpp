@@ -177,7 +177,7 @@ Selection select_channels(const SampleLayout& layout, const Settings& settings) 
   return selection;
 }
 
-std::vector<std::string> needed_slots(const SampleLayout& layout, const Settings& settings) {
+std::vector<std::string> selected_slots(const SampleLayout& layout, const Settings& settings) {
   const Selection selection = select_channels(layout, settings);
   const auto is_position = [](const std::string& slot) { return is_world_position(group_of(slot)); };
   const bool measures =

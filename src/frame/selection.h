@@ -18,4 +18,8 @@ struct Selection {
 /// Resolves groups to slots. Throws Error(usage) for a group that the layout does not have, naming those it has.
 Selection select_channels(const SampleLayout& layout, const Settings& settings);
 
+/// What the selection is made of, and what every method takes: needed_slots() of rpf/filter.h, but for what a network
+/// does not look at.
+std::vector<std::string> selected_slots(const SampleLayout& layout, const Settings& settings);
+
 }  // namespace rpf

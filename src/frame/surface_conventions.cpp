@@ -171,7 +171,7 @@ class SpaceCheck : public PixelCheck {
     for (std::uint32_t i = rows.first_sample[place]; i < rows.first_sample[place + 1]; ++i) {
       const float* record = rows.record(i);
       if (!is_hit(record, hit_)) continue;
-      if (before != nullptr) look_at_pair(before, record, pixel, found);
+      if (before != nullptr) return look_at_pair(before, record, pixel, found);
       before = record;
     }
   }

@@ -44,7 +44,7 @@ using EstimateProgress = std::function<void(double part)>;
 /// One stage of the estimator over window_around(region), all its values, so that backends are compared stage by stage.
 /// In this order: "inputs" [sample][30], "sample1", "sample2" [sample][S], "pixel" [pixel][2S + 18], the layers from
 /// "enter" to "up0b" by name, each [cell of its level][outputs], "head", "weights" [sample] (the file's weight
-/// included), "sums" [pixel][rpf_sums()], "pass0" to "pass3" likewise, "albedo" [pixel][4], "pass4", "pass5" likewise,
+/// included), "sums" [pixel][rpf_sums()], "pass0" and so on likewise, "albedo" [pixel][4], its passes likewise,
 /// "result" [pixel][carried]. Samples are those of the window's pixels, row by row.
 struct EstimateStage {
   std::string name;

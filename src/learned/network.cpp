@@ -1,6 +1,7 @@
 #include "learned/network.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 #include "rpf_network.h"
@@ -14,9 +15,10 @@ NetworkLayer layer(std::string name, int inputs, int outputs, int taps) {
 
 }  // namespace
 
-std::vector<NetworkLayer> layers_of(int sample_features, const std::vector<int>& channels, int embedding) {
-  const int s = sample_features, last = static_cast<int>(channels.size()) - 1;
-  const auto c = [&](int level) { return channels[static_cast<std::size_t>(level)]; };
+std::vector<NetworkLayer> layers_of(const NetworkShape& shape) {
+  using kernel::uint;
+  const int s = shape.sample_features, last = shape.levels() - 1;
+  const auto c = [&](int level) { return shape.channels[static_cast<std::size_t>(level)]; };
   const auto name = [](const char* way, int level, const char* which) { return way + std::to_string(level) + which; };
   std::vector<NetworkLayer> layers = {layer("sample1", RPF_INPUTS, s, 1), layer("sample2", s, s, 1),
                                       layer("enter", 2 * s + RPF_STATISTICS, c(0), 1), layer("down0", c(0), c(0), 9)};
@@ -28,8 +30,8 @@ std::vector<NetworkLayer> layers_of(int sample_features, const std::vector<int>&
     layers.push_back(layer(name("up", l, "a"), c(l + 1) + c(l), c(l), 9));
     layers.push_back(layer(name("up", l, "b"), c(l), c(l), 9));
   }
-  layers.push_back(
-      layer("head", c(0), static_cast<int>(kernel::rpf_head_values(static_cast<kernel::uint>(embedding))), 1));
+  const uint head = kernel::rpf_head_pass(static_cast<uint>(shape.passes()), static_cast<uint>(shape.embedding));
+  layers.push_back(layer("head", c(0), static_cast<int>(head), 1));
   layers.push_back(layer("weight1", s + RPF_CONTEXT, RPF_WEIGHT_FEATURES, 1));
   layers.push_back(layer("weight2", RPF_WEIGHT_FEATURES, 1, 1));
   return layers;
@@ -44,9 +46,15 @@ NetworkLayer with_inputs(const NetworkLayer& layer, const std::vector<int>& inpu
   return some;
 }
 
-int network_reach(int levels) {
-  int passes = 0;
-  for (kernel::uint p = 0; p < RPF_COLOR_PASSES; ++p) passes += RPF_PASS_REACH * kernel::rpf_dilation(p);
+int pass_reach(const NetworkShape& shape) {
+  const auto reach = [](const std::vector<int>& dilations) {
+    return RPF_PASS_REACH * std::accumulate(dilations.begin(), dilations.end(), 0);
+  };
+  return std::max(reach(shape.dilations), reach(shape.albedo_dilations));
+}
+
+int network_reach(const NetworkShape& shape) {
+  const int passes = pass_reach(shape), levels = shape.levels();
   // Cells of each level that its last convolution is read at, beyond those of the region; a cell of the level below
   // covers two, of which the other may be on either side.
   std::vector<int> needed = {passes};

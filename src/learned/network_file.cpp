@@ -10,7 +10,9 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
+#include "network_launch.h"
 #include "rpf/error.h"
+#include "rpf_network.h"
 
 namespace rpf {
 namespace {
@@ -18,11 +20,13 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* format_name = "rpf-network";
-constexpr int format_version = 1;
+/// Of version 1 are networks whose passes are not said: those of a NetworkShape.
+constexpr int format_version = 2;
 
 // What a file may ask for, so that no shape overflows and none takes more than a few hundred MB.
 constexpr std::size_t longest_header = 1 << 16, longest_name = 64, most_bytes = 1 << 28;
-constexpr int most_features = 128, most_channels = 512, most_levels = 8, most_embedding = 64;
+constexpr int most_features = 128, most_channels = 512, most_levels = 8, most_embedding = 64, most_passes = 8;
+constexpr int largest_dilation = RPF_MARGIN / RPF_PASS_REACH;
 
 [[noreturn]] void refuse(const std::string& origin, const std::string& what) {
   throw Error(ErrorKind::input, fmt::format("{}: {}; a network is made by training/ (docs/network.md)", origin, what));
@@ -34,14 +38,25 @@ int number_in(const Json& value, int largest, const std::string& what, const std
   return value.get<int>();
 }
 
+std::vector<int> numbers_in(const Json& header, const char* name, int most_numbers, int largest,
+                            const std::string& origin) {
+  const Json list = header.value(name, Json());
+  if (!list.is_array() || list.empty() || list.size() > static_cast<std::size_t>(most_numbers))
+    refuse(origin, fmt::format("'{}' must be a list of 1 to {} numbers", name, most_numbers));
+  std::vector<int> numbers;
+  for (const Json& number : list) numbers.push_back(number_in(number, largest, name, origin));
+  return numbers;
+}
+
 Json header_of(std::string_view bytes, const std::string& origin) {
   const std::size_t end = bytes.substr(0, longest_header).find('\n');
   if (end == std::string_view::npos) refuse(origin, "not a network file: no line of JSON at its beginning");
   Json header = Json::parse(bytes.substr(0, end), nullptr, false);
   if (!header.is_object() || header.value("format", Json()) != format_name)
     refuse(origin, "not a network file: its first line must be JSON with \"format\":\"rpf-network\"");
-  if (header.value("version", Json()) != format_version)
-    refuse(origin, fmt::format("this version of rpf reads networks of version {} only", format_version));
+  const auto is_version = [&](int number) { return header.value("version", Json()) == number; };
+  if (!is_version(1) && !is_version(format_version))
+    refuse(origin, fmt::format("this version of rpf reads networks of version 1 to {}", format_version));
   return header;
 }
 
@@ -59,11 +74,12 @@ Network shape_of(const Json& header, const std::string& origin) {
   if (!is_printable(n.name)) refuse(origin, fmt::format("'name' must be a line of 1 to {} characters", longest_name));
   n.sample_features = number_in(header.value("sample_features", Json()), most_features, "sample_features", origin);
   n.embedding = number_in(header.value("embedding", Json()), most_embedding, "embedding", origin);
-  const Json channels = header.value("channels", Json());
-  if (!channels.is_array() || channels.empty() || channels.size() > most_levels)
-    refuse(origin, fmt::format("'channels' must be a list of 1 to {} numbers", most_levels));
-  for (const Json& c : channels) n.channels.push_back(number_in(c, most_channels, "channels", origin));
-  n.layers = layers_of(n.sample_features, n.channels, n.embedding);
+  n.channels = numbers_in(header, "channels", most_levels, most_channels, origin);
+  if (header["version"] == format_version) {
+    n.dilations = numbers_in(header, "dilations", most_passes, largest_dilation, origin);
+    n.albedo_dilations = numbers_in(header, "albedo_dilations", most_passes, largest_dilation, origin);
+  }
+  n.layers = layers_of(n);
   return n;
 }
 
@@ -158,9 +174,10 @@ Network parse_network(std::string_view bytes, const std::string& origin) {
 }
 
 std::string network_bytes(const Network& network) {
-  const Json header = {{"format", format_name},        {"version", format_version},
-                       {"name", network.name},         {"sample_features", network.sample_features},
-                       {"channels", network.channels}, {"embedding", network.embedding}};
+  const Json header = {{"format", format_name},          {"version", format_version},
+                       {"name", network.name},           {"sample_features", network.sample_features},
+                       {"channels", network.channels},   {"embedding", network.embedding},
+                       {"dilations", network.dilations}, {"albedo_dilations", network.albedo_dilations}};
   std::string bytes = header.dump() + "\n";
   for (const NetworkLayer& layer : network.layers)
     for (const std::vector<float>* values : {&layer.weights, &layer.bias})

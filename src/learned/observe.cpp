@@ -11,13 +11,14 @@
 namespace rpf {
 namespace {
 
-/// Which inputs the records get columns for, behind the color: those that vary, and the albedo.
+/// Which inputs the records get columns for, behind the color: those that vary and that the network looks at, and the
+/// albedo.
 void plan_columns(EstimatePlan& plan, const RecordView& view, const std::vector<int>& constant) {
   plan.column.fill(-1);
   plan.live = {0, 1, 2, 3, 4, 5};
   int column = 3;
   for (int input = RPF_INPUT_NORMAL; input < RPF_INPUTS; ++input) {
-    if (!view.has(input)) continue;
+    if (!view.has(input) || !looks_at(*plan.network, input)) continue;
     const bool is_live = std::find(constant.begin(), constant.end(), input) == constant.end();
     const bool is_base = plan.has_albedo && input >= RPF_INPUT_ALBEDO && input < RPF_INPUT_ALBEDO + 3;
     if (is_live) plan.live.push_back(input);
@@ -69,9 +70,10 @@ class RecordMaker {
   float scale_;
 };
 
-/// The selected channels by name: those of inputs that vary, and the others.
+/// The selected channels that the network looks at by name: those of inputs that vary, and the others.
 void sort_names(const CleanFrame& clean, const EstimatePlan& plan, PreparedFrame& prepared) {
   const auto sort = [&](const std::string& name, std::vector<std::string>& used) {
+    if (!looks_at(*plan.network, name)) return;
     (plan.is_live(input_of(name)) ? used : prepared.dropped).push_back(name);
   };
   Variables& names = prepared.facts.variables;

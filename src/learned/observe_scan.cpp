@@ -19,17 +19,11 @@ Number lower_median(std::vector<Number> values) {
   return *middle;
 }
 
-/// Of a pixel's samples. The same operations as energy_of_means(): some rows of a frame have the energy that they have
-/// in the whole, bit for bit.
-struct ColorSum {
-  double color[3] = {}, weight = 0;
-
-  void add(const float (&of_sample)[3], double its_weight) {
-    for (std::size_t c = 0; c < 3; ++c) color[c] += its_weight * of_sample[c];
-    weight += its_weight;
-  }
-  double energy_of_mean() const { return weight > 0 ? color[0] / weight + color[1] / weight + color[2] / weight : 0; }
-};
+/// R + G + B of the mean of a pixel's samples, from the sum of their weighted colors. The same operations as
+/// energy_of_means(): some rows of a frame have the energy that they have in the whole, bit for bit.
+double energy_of_mean(const std::array<double, 3>& sum, double weight) {
+  return weight > 0 ? sum[0] / weight + sum[1] / weight + sum[2] / weight : 0;
+}
 
 struct PixelBlock {
   double mean;  ///< luminance
@@ -94,8 +88,9 @@ ObserveScan::ObserveScan(const SampleBuffer& frame, const Settings& settings)
 
 void ObserveScan::add(SampleBuffer& rows) {
   const std::size_t first = first_pixel(rows.data_window, clean_.frame.data_window);
-  cleaning_.add(rows, [&](std::size_t place, std::uint32_t begin, std::uint32_t end) {
-    include_energy(rows, first + place, begin, end);
+  cleaning_.add(rows, [&](std::size_t place, std::uint32_t begin, std::uint32_t end, const ColorSum& sum) {
+    energies_[first + place] = energy_of_mean(sum.color, sum.samples);
+    if (clean_.columns.weight) include_weighted(rows, first + place, begin, end);
     include_position(rows, first + place, begin, end);
   });
   if (cleaning_.lacks_positions()) center_missing_positions(rows, clean_.columns, method_);
@@ -106,17 +101,18 @@ void ObserveScan::add(SampleBuffer& rows) {
   leave_constant(rows, plain_, first_plain_);
 }
 
-void ObserveScan::include_energy(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin, std::uint32_t end) {
+void ObserveScan::include_weighted(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin,
+                                   std::uint32_t end) {
   const Columns& columns = clean_.columns;
-  ColorSum plain, weighted;
+  std::array<double, 3> sum{};
+  double weights = 0;
   for (std::uint32_t i = begin; i < end; ++i) {
     const float* record = rows.record(i);
-    const float color[3] = {record[columns.color[0]], record[columns.color[1]], record[columns.color[2]]};
-    plain.add(color, 1);
-    if (columns.weight) weighted.add(color, record[*columns.weight]);
+    const double weight = record[*columns.weight];
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * record[columns.color[c]];
+    weights += weight;
   }
-  energies_[pixel] = plain.energy_of_mean();
-  if (columns.weight) weighted_[pixel] = weighted.weight > 0 ? weighted.energy_of_mean() : energies_[pixel];
+  weighted_[pixel] = weights > 0 ? energy_of_mean(sum, weights) : energies_[pixel];
 }
 
 void ObserveScan::include_position(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin,
@@ -216,9 +212,10 @@ bool ObserveScan::finish() {
     std::fill(weighted_.begin(), weighted_.end(), 0);
   }
   for (const LostPixel& lost : found_.cleaned.lost) {
-    ColorSum sum;
-    for (std::uint32_t i = 0; i < lost.samples; ++i) sum.add({lost.color[0], lost.color[1], lost.color[2]}, 1);
-    energies_[lost.pixel] = sum.energy_of_mean();
+    std::array<double, 3> sum{};
+    for (std::uint32_t i = 0; i < lost.samples; ++i)
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += lost.color[c];
+    energies_[lost.pixel] = energy_of_mean(sum, lost.samples);
     if (!weighted_.empty()) weighted_[lost.pixel] = energies_[lost.pixel];
   }
   found_.exposure = exposure();

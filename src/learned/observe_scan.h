@@ -52,8 +52,8 @@ class ObserveScan {
   };
   using Marked = std::array<std::atomic<bool>, RPF_INPUTS>;
 
-  /// Of a pixel with the samples begin .. end - 1 of the rows.
-  void include_energy(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin, std::uint32_t end);
+  /// The weighted energy of a pixel with the samples begin .. end - 1 of the rows.
+  void include_weighted(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin, std::uint32_t end);
   void include_position(const SampleBuffer& rows, std::size_t pixel, std::uint32_t begin, std::uint32_t end);
   /// What these inputs are for the first sample of all, if these are the first rows.
   void know_first(const SampleBuffer& rows, const std::vector<int>& inputs, FirstValues& first) const;

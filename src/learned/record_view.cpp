@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "learned/network.h"
 #include "learned/observe_scan.h"
 #include "parallel/vectors.h"
 
@@ -52,11 +53,10 @@ float or_zero(float value) { return std::isnan(value) ? 0.0F : value; }
 
 /// std::floor() without the call that it is on processors before SSE4.1.
 float floor_of(float value) {
-  constexpr float all_whole = 1 << 23;  // from here on
-  const bool is_small = std::fabs(value) < all_whole;
-  const auto cut = static_cast<float>(static_cast<int>(is_small ? value : 0.0F));
-  const float whole = cut - (cut > value ? 1.0F : 0.0F);
-  return is_small ? whole : value;
+  constexpr float all_whole = 1 << 23;  // from here on; sums with it are whole too
+  const float magnitude = std::fabs(value), nearest = std::copysign(magnitude + all_whole - all_whole, value);
+  const float below = nearest > value ? nearest - 1 : nearest;
+  return magnitude < all_whole ? below : value;
 }
 
 /// 2u - 1 of a number in [0, 1); 0 where it is missing.
@@ -96,6 +96,22 @@ int input_of(const std::string& variable) {
   for (const NamedInput& named : named_inputs)
     if (variable == named.variable) return named.input;
   return -1;
+}
+
+bool looks_at(const Network& network, int input) {
+  if (input < RPF_INPUT_NORMAL2) return true;
+  const NetworkLayer& layer = network.sample1();
+  const auto weights = layer.weights.begin() + static_cast<std::ptrdiff_t>(input) * layer.outputs;
+  return std::any_of(weights, weights + layer.outputs, [](float weight) { return weight != 0; });
+}
+
+bool looks_at(const Network& network, const std::string& slot) {
+  const int input = input_of(short_name(slot));
+  const bool is_second_normal = input >= RPF_INPUT_NORMAL2 && input < RPF_INPUT_DISTANCE2;
+  if (!is_second_normal) return looks_at(network, input);
+  for (int any = RPF_INPUT_NORMAL2; any < RPF_INPUT_LENS; ++any)
+    if (looks_at(network, any)) return true;
+  return false;
 }
 
 RecordView::RecordView(const CleanFrame& clean)
@@ -209,15 +225,22 @@ void RecordView::read_first_hits(const ColumnBlock& records, const BlockMask& hi
                 });
 }
 
-float RecordView::second_distance(const ColumnBlock& records, std::size_t i, const PositionFacts& positions) const {
-  double square = 0;
+void RecordView::read_second_distances(const ColumnBlock& records, const BlockMask& again,
+                                       const PositionFacts& positions, float (&input)[block_records]) const {
+  double squares[block_records] = {};
   for (std::size_t k = 0; k < 3; ++k) {
-    const double d = static_cast<double>(records[(*position2_)[k]][i]) - records[(*position_)[k]][i];
-    square += d * d;
+    const float *second = records[(*position2_)[k]], *first = records[(*position_)[k]];
+    for (std::size_t i = 0; i < block_records; ++i) {
+      const double d = static_cast<double>(second[i]) - first[i];
+      squares[i] += d * d;
+    }
   }
-  if (std::isnan(square)) return 0;  // one of them is missing
-  const auto distance = static_cast<float>(std::sqrt(square) / positions.deviation);
-  return kernel::rpf_log(1 + 4 * rpf_held(distance, 0, farthest_second_hit));
+  for (std::size_t i = 0; i < block_records; ++i) {
+    const auto distance = static_cast<float>(std::sqrt(squares[i]) / positions.deviation);
+    const float seen = kernel::rpf_log(1 + 4 * rpf_held(distance, 0, farthest_second_hit));
+    const bool is_known = again[i] != 0 && !std::isnan(distance);  // else a position is missing
+    input[i] = is_known ? seen : 0.0F;
+  }
 }
 
 void RecordView::read_second_hits(const ColumnBlock& records, const BlockMask& hits, const PositionFacts& positions,
@@ -231,8 +254,7 @@ void RecordView::read_second_hits(const ColumnBlock& records, const BlockMask& h
       const float held = rpf_held(value, -longest_normal, longest_normal);
       return again[i] != 0 ? held : 0.0F;
     });
-  for (std::size_t i = 0; reads_.second_distance && i < records.count(); ++i)
-    inputs.values[RPF_INPUT_DISTANCE2][i] = again[i] != 0 ? second_distance(records, i, positions) : 0;
+  if (reads_.second_distance) read_second_distances(records, again, positions, inputs.values[RPF_INPUT_DISTANCE2]);
 }
 
 void RecordView::read(const ColumnBlock& records, const PositionFacts& positions, InputBlock& inputs) const {

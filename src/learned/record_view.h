@@ -12,6 +12,7 @@
 
 namespace rpf {
 
+struct Network;
 struct PositionFacts;
 
 /// Inputs of some samples, input by input.
@@ -60,7 +61,8 @@ class RecordView {
                        InputBlock& inputs) const;
   void read_second_hits(const ColumnBlock& records, const BlockMask& hits, const PositionFacts& positions,
                         InputBlock& inputs) const;
-  float second_distance(const ColumnBlock& records, std::size_t i, const PositionFacts& positions) const;
+  void read_second_distances(const ColumnBlock& records, const BlockMask& again, const PositionFacts& positions,
+                             float (&input)[block_records]) const;
 
   std::size_t stride_ = 0;  ///< values of a record
   Columns normal_, albedo_, position_, normal2_, position2_;
@@ -72,5 +74,12 @@ class RecordView {
 /// The input that a variable such as "N.X", "lens.U" or "hit" goes into; of those that go into several the first. -1:
 /// none.
 int input_of(const std::string& variable);
+
+/// Whether a network looks at what goes into an input: into one of the first 16, by which passes are guided or which
+/// all estimates need, or into one that sample1 has a weight for. A normal of a second hit also says whether there is
+/// one.
+bool looks_at(const Network& network, int input);
+/// The same of what is in a slot.
+bool looks_at(const Network& network, const std::string& slot);
 
 }  // namespace rpf

@@ -21,6 +21,9 @@ int part_cells(int width, std::size_t items) {
 /// Multiply-adds that the device is asked for before it is waited for: a fraction of a second, and of the whole.
 constexpr double work_at_once = 2e9, least_waits = 16;
 
+/// Of a row whose samples are kept: pitches of grids are ints.
+constexpr std::uint32_t most_row_samples = 1 << 20;
+
 /// Behind a grid there may be read, not more than a vector, what has no meaning.
 constexpr std::size_t read_behind = RPF_LANES * sizeof(float);
 
@@ -35,6 +38,19 @@ double sample_count(const EstimateJob& job) {
   return sum;
 }
 
+/// Samples of the row that has most; 0 where not all are in memory, or a row has too many: then there is no room for
+/// what is computed of them.
+int row_samples(const EstimateJob& job) {
+  const Window& w = job.window;
+  std::uint32_t most = 0;
+  for (int y = w.y; job.frame.supply == nullptr && y < w.y + w.height; ++y) {
+    const std::uint32_t* row =
+        job.frame.first_sample.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(job.frame.width) + w.x;
+    most = std::max(most, row[w.width] - row[0]);
+  }
+  return most > most_row_samples ? 0 : static_cast<int>(most);
+}
+
 }  // namespace
 
 EstimateRun::EstimateRun(Session& session, const NetworkProgram& program, const EstimateJob& job, int first, int end,
@@ -43,7 +59,7 @@ EstimateRun::EstimateRun(Session& session, const NetworkProgram& program, const 
       program_(program),
       job_(job),
       items_(items),
-      steps_(job.plan, job.window, sample_count(job), first, end, keep_all),
+      steps_(job.plan, job.window, sample_count(job), first, end, keep_all, row_samples(job)),
       samples_(session, program, job, items, keep_all ? &sample_trace_ : nullptr),
       halve_(program.kernel("halve")),
       embed_(program.kernel("embed")),
@@ -102,17 +118,13 @@ void EstimateRun::run_embed(const EstimateStep& step, int first, int end) {
 void EstimateRun::run_weigh(const EstimateStep& step, int first, int end) {
   const DeviceGrid &embedded = grid(step.in.front()), &out = grid(step.out.front());
   launch(weigh_pixels_, embedded.buffer, out.buffer, area(step, first, end), embedded.rows, out.rows,
-         kernel::rpf_dilation(static_cast<kernel::uint>(step.number)), embedded.stored - 1);
+         job_.plan.network->dilation(step.number), embedded.stored - 1);
 }
 
 void EstimateRun::run_pass(const EstimateStep& step, int first, int end) {
   const DeviceGrid &in = grid(step.in[0]), &weights = grid(step.in[1]), &out = grid(step.out.front());
-  const kernel::rpf_network_pass pass{area(step, first, end),
-                                      weights.rows,
-                                      in.rows,
-                                      out.rows,
-                                      kernel::rpf_dilation(static_cast<kernel::uint>(step.number)),
-                                      in.stored};
+  const kernel::rpf_network_pass pass{
+      area(step, first, end), weights.rows, in.rows, out.rows, job_.plan.network->dilation(step.number), in.stored};
   launch(filter_pass_, weights.buffer, in.buffer, out.buffer, pass);
 }
 
@@ -125,9 +137,13 @@ void EstimateRun::run_finish(const EstimateStep& step, int first, int end) {
 void EstimateRun::run_step(const EstimateStep& step, int first, int end, const Part& part) {
   switch (step.kind) {
     case Kind::see:
-      return samples_.see(area(step, first, end), grid(step.out[0]), grid(step.out[1]), grid(step.out[2]), part);
+      return samples_.see(area(step, first, end),
+                          {grid(steps_.enter), grid(steps_.guides), grid(steps_.albedo), optional_grid(steps_.kept),
+                           optional_grid(steps_.pixel)},
+                          part);
     case Kind::sum:
-      return samples_.sum(area(step, first, end), grid(step.in[0]), grid(step.out[0]), part);
+      return samples_.sum(area(step, first, end), grid(step.in[0]), optional_grid(steps_.kept), grid(step.out[0]),
+                          part);
     case Kind::layer:
       run_layer(step, program_.layer(static_cast<std::size_t>(step.number)), first, end);
       break;
@@ -240,6 +256,7 @@ std::vector<EstimateStage> EstimateRun::trace() {
   std::vector<EstimateStage> stages = {{"inputs", RPF_INPUTS, sample_trace_.inputs},
                                        {"sample1", features, sample_trace_.sample1},
                                        {"sample2", features, sample_trace_.sample2}};
+  const std::string last_of_color = "pass" + std::to_string(job_.plan.network->color_passes() - 1);
   for (std::size_t i = 0; i < steps_.grids.size(); ++i) {
     const int number = static_cast<int>(i);
     const std::string& name = steps_.grids[i].name;
@@ -247,7 +264,7 @@ std::vector<EstimateStage> EstimateRun::trace() {
     if (name == "sums") stages.push_back({"weights", 1, sample_trace_.weights});
     if (name.empty() || name == "guides" || name == "albedo" || number == steps_.result) continue;
     stages.push_back(stage(number, name));
-    if (name == "pass3") stages.push_back(stage(steps_.albedo, "albedo"));
+    if (name == last_of_color) stages.push_back(stage(steps_.albedo, "albedo"));
   }
   stages.push_back({"result", job_.plan.carried, pixels});
   return stages;

@@ -38,6 +38,8 @@ class EstimateRun {
   void launch(cl::Kernel& kernel, const Values&... values);
   kernel::rpf_area area(const EstimateStep& step, int first, int end) const;
   const DeviceGrid& grid(int number) const { return grids_[static_cast<std::size_t>(number)]; }
+  /// Without rows where there is none.
+  const DeviceGrid& optional_grid(int number) const { return number < 0 ? no_grid_ : grid(number); }
   std::vector<float> values_of(int grid);
   EstimateStage stage(int grid, const std::string& name);
   EstimateStage head_stage();
@@ -49,6 +51,7 @@ class EstimateRun {
   SampleTrace sample_trace_;
   EstimateSteps steps_;
   std::vector<DeviceGrid> grids_;
+  DeviceGrid no_grid_;
   SampleStage samples_;
   cl::Kernel halve_, embed_, weigh_pixels_, filter_pass_, finish_;
   int first_, end_;

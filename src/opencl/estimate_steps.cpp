@@ -22,6 +22,14 @@ int rows_at_once(Kind kind, int width, int level) {
                     std::max(most_rows_at_once >> level, least_rows_at_once));
 }
 
+/// What is kept of samples stays in large caches; where it would take more it is cheaper to compute it once more.
+constexpr double most_kept_bytes = 128 << 20;
+/// Of a sample: its features and what is summed.
+int kept_floats(const Network& network) { return padded(network.sample_features) + RPF_SEEN - RPF_SEEN_SUMMED; }
+double bytes_kept(const EstimatePlan& plan, double samples) {
+  return samples * kept_floats(*plan.network) * static_cast<double>(sizeof(float));
+}
+
 int whole(int count, int unit) { return (count + unit - 1) / unit * unit; }
 
 double products(const NetworkLayer& layer) { return static_cast<double>(layer.inputs) * layer.outputs * layer.taps; }
@@ -29,25 +37,29 @@ double products(const NetworkLayer& layer) { return static_cast<double>(layer.in
 /// Builds the lists.
 class Builder {
  public:
-  /// `whole_head`: keeps all that the head says, also what the result does not need.
-  Builder(EstimateSteps& steps, const EstimatePlan& plan, const Window& window, double samples, bool whole_head)
+  /// `whole_head`: keeps what the first layer reads, and all that the head says, also what the result does not need.
+  Builder(EstimateSteps& steps, const EstimatePlan& plan, const Window& window, double samples, bool whole_head,
+          int row_samples)
       : out_(steps),
         plan_(plan),
         network_(*plan.network),
         window_(window),
         samples_(samples / window.height),
-        whole_head_(whole_head) {}
+        whole_head_(whole_head),
+        row_samples_(row_samples) {}
 
   void build() {
     const int last = layers(see());
     out_.heads = head(last);
-    const int sums = make(Kind::sum, 0, {out_.heads}, planes("sums", sum_count()), 0, samples_ * sample_work() * 1.1);
-    const int filtered = passes(last, sums, 0, RPF_COLOR_PASSES);
-    const int albedo = plan_.has_albedo ? passes(last, out_.albedo, RPF_COLOR_PASSES, RPF_ALBEDO_PASSES) : out_.albedo;
+    std::vector<int> summed = {out_.heads};
+    if (out_.kept >= 0) summed.push_back(out_.kept);
+    const int sums = make(Kind::sum, 0, summed, planes("sums", sum_count()), 0, samples_ * sum_work());
+    const int color_passes = network_.color_passes(), filtered = passes(last, sums, 0, color_passes);
+    const int albedo = plan_.has_albedo ? passes(last, out_.albedo, color_passes, network_.passes()) : out_.albedo;
     EstimateGrid result = planes("result", static_cast<int>(plan_.carried));
     result.stored = 0;  // the host has it
     std::vector<int> read = {filtered, albedo, out_.heads};
-    for (int pass = RPF_COLOR_PASSES; whole_head_ && !plan_.has_albedo && pass < RPF_NETWORK_PASSES; ++pass)
+    for (int pass = color_passes; whole_head_ && !plan_.has_albedo && pass < network_.passes(); ++pass)
       read.push_back(embed(last, pass));
     out_.result = make(Kind::finish, 0, read, result, 0, 30.0 * window_.width);
   }
@@ -55,6 +67,9 @@ class Builder {
  private:
   int sum_count() const { return static_cast<int>(kernel::rpf_sums(static_cast<uint>(plan_.carried))); }
   double sample_work() const { return products(network_.sample1()) + products(network_.sample2()) + 500; }
+  double sum_work() const {
+    return (out_.kept >= 0 ? 300 : sample_work()) + products(network_.weight1()) + products(network_.weight2());
+  }
 
   int size_at(int size, int level) const { return (size + (1 << level) - 1) >> level; }
   EstimateGrid cells(const std::string& name, int values, int level) const {
@@ -76,9 +91,7 @@ class Builder {
       const int around = network_.layers[static_cast<std::size_t>(number)].taps == 9 ? 1 : 0;
       return {grid, around, around};
     }
-    const int reach = kind == Kind::weigh || kind == Kind::pass
-                          ? RPF_PASS_REACH * kernel::rpf_dilation(static_cast<uint>(number))
-                          : 0;
+    const int reach = kind == Kind::weigh || kind == Kind::pass ? RPF_PASS_REACH * network_.dilation(number) : 0;
     return {grid, kind == Kind::pass ? reach : 0, kind == Kind::weigh || is_first ? reach : 0};
   }
 
@@ -102,10 +115,18 @@ class Builder {
   }
 
   int see() {
-    const int pixel = add(cells("pixel", network_.enter().inputs, 0)), guides = add(planes("guides", RPF_GUIDES));
+    const NetworkLayer& enter = network_.enter();
+    if (whole_head_) out_.pixel = add(cells("pixel", enter.inputs, 0));
+    out_.enter = add(cells(enter.name, enter.outputs, 0));
+    out_.guides = add(planes("guides", RPF_GUIDES));
     out_.albedo = add(planes("albedo", RPF_ALBEDO_SUMS));
-    guides_ = guides;
-    return make_all(Kind::see, 0, {}, {pixel, guides, out_.albedo}, 0, samples_ * sample_work());
+    std::vector<int> made = {out_.enter, out_.guides, out_.albedo};
+    if (whole_head_) made.push_back(out_.pixel);
+    if (row_samples_ > 0) {
+      const int stored = kept_floats(network_);
+      made.push_back(out_.kept = add({"", row_samples_, window_.height, stored, stored, false}));
+    }
+    return make_all(Kind::see, 0, {}, made, 0, samples_ * sample_work() + window_.width * products(enter));
   }
 
   int layer(const NetworkLayer& layer, const std::vector<int>& in, int level) {
@@ -114,8 +135,8 @@ class Builder {
                 grid.width * products(layer));
   }
 
-  int layers(int pixel) {
-    std::vector<int> levels = {layer(network_.down(0, false), {layer(network_.enter(), {pixel}, 0)}, 0)};
+  int layers(int entered) {
+    std::vector<int> levels = {layer(network_.down(0, false), {entered}, 0)};
     for (int l = 1; l < network_.levels(); ++l) {
       const int channels = network_.channels[static_cast<std::size_t>(l - 1)];
       const int half = make(Kind::halve, 0, {levels.back()}, cells("", channels, l), l, 0);
@@ -138,12 +159,12 @@ class Builder {
     const int terms = network_.embedding + RPF_GUIDES;
     std::vector<int> made = {add(planes("", terms + 1))};
     if (whole_head_) made.push_back(add(planes("", terms + 1)));
-    return make_all(Kind::embed, pass, {last, guides_}, made, 0,
+    return make_all(Kind::embed, pass, {last, out_.guides}, made, 0,
                     window_.width * (1.0 * network_.channels[0] * (terms + 1) + 10.0 * terms));
   }
 
-  int passes(int last, int values, int first, int count) {
-    for (int pass = first; pass < first + count; ++pass) {
+  int passes(int last, int values, int first, int end) {
+    for (int pass = first; pass < end; ++pass) {
       const int terms = network_.embedding + RPF_GUIDES, kept = out_.grids[static_cast<std::size_t>(values)].values;
       const int embedded = embed(last, pass);
       const int weights = make(Kind::weigh, pass, {embedded}, planes("", RPF_PASS_PAIRS + 1), 0,
@@ -161,7 +182,7 @@ class Builder {
   Window window_;
   double samples_;  ///< a row
   bool whole_head_;
-  int guides_ = 0;
+  int row_samples_;
 };
 
 }  // namespace
@@ -174,9 +195,15 @@ int EstimateGrid::pitch() const {
 }
 
 EstimateSteps::EstimateSteps(const EstimatePlan& plan, const Window& window, double samples, int first, int end,
-                             bool keep_all) {
-  Builder(*this, plan, window, samples, keep_all).build();
+                             bool keep_all, int row_samples) {
+  Builder(*this, plan, window, samples, keep_all, row_samples).build();
   pipeline.plan(result, first, end, keep_all);
+  if (kept >= 0 && bytes_kept(plan, 1.0 * row_samples * pipeline.rows(kept)) > most_kept(plan, samples))
+    *this = EstimateSteps(plan, window, samples, first, end, keep_all);
+}
+
+double EstimateSteps::most_kept(const EstimatePlan& plan, double samples) {
+  return std::min(most_kept_bytes, bytes_kept(plan, samples));
 }
 
 double EstimateSteps::work() const {

@@ -35,10 +35,18 @@ struct EstimateSteps {
   std::vector<EstimateGrid> grids;
   std::vector<EstimateStep> steps;
   RowPipeline pipeline;
-  int heads = 0, albedo = 0, result = 0;  ///< grids: before the passes; of the albedo before its passes; of the result
+  /// Grids: of the first layer; of what the head says before the passes; of the albedo before its passes.
+  int enter = 0, guides = 0, heads = 0, albedo = 0, result = 0;
+  int pixel = -1;  ///< of what the first layer reads; -1: nobody wants it
+  int kept = -1;   ///< of samples; -1: what is computed of them is not kept
 
-  /// Plans the rows first .. end - 1 of a window with so many samples.
-  EstimateSteps(const EstimatePlan& plan, const Window& window, double samples, int first, int end, bool keep_all);
+  /// Plans the rows first .. end - 1 of a window with so many samples. `row_samples`: in the row that has most, where
+  /// what is computed of samples may be kept until they are summed up; else 0.
+  EstimateSteps(const EstimatePlan& plan, const Window& window, double samples, int first, int end, bool keep_all,
+                int row_samples = 0);
+
+  /// Bytes at most of what is kept of so many samples.
+  static double most_kept(const EstimatePlan& plan, double samples);
 
   double work() const;          ///< multiply-adds in all, about
   std::uint64_t bytes() const;  ///< of all grids

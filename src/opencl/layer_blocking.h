@@ -19,7 +19,7 @@ struct LayerShape {
   int own = 0;        ///< inputs of the cells themselves
   int outputs = 0;    ///<
   bool leaky = true;  ///< lrelu at the end
-  /// Of a layer whose cells are samples, without a border: its name in kernels/network_samples.cl.
+  /// Of a layer whose cells are samples, or pixels at hand, without a border: its name in kernels/network_samples.cl.
   std::string samples;
   /// `coarse` inputs are computed of samples, further ones are columns of their records.
   bool records = false;

@@ -77,19 +77,20 @@ void NetworkProgram::place_layers(const Network& network, const std::vector<int>
     place(layers_[i], layer, is_first ? live : all_inputs(layer), 0, layer.outputs);
   }
   const int pass_values = network.embedding + 1 + RPF_GUIDES;
-  heads_.resize(1 + RPF_NETWORK_PASSES);
+  heads_.resize(1 + static_cast<std::size_t>(network.passes()));
   for (std::size_t p = 0; p < heads_.size(); ++p) {
     heads_[p].shape.leaky = false;
     const int first = p == 0 ? 0 : RPF_CONTEXT + 1 + (static_cast<int>(p) - 1) * pass_values;
     place(heads_[p], network.head(), all_inputs(network.head()), first, p == 0 ? RPF_CONTEXT + 1 : pass_values);
   }
-  DeviceLayer &sample1 = layers_[0], &sample2 = layers_[1], &weight1 = layers_[layers_.size() - 2];
+  DeviceLayer &sample1 = layers_[0], &sample2 = layers_[1], &enter = layers_[2], &weight1 = layers_[layers_.size() - 2];
   sample1.shape = sample_shape(sample1.shape, "sample1", 0, padded(features_));
   sample1.shape.records = true;
   sample1.shape.coarse = RPF_INPUT_NORMAL;  // computed
   sample1.shape.coarse_stride = RPF_SEEN;
   sample1.shape.own = 0;  // any number
   sample2.shape = sample_shape(sample2.shape, "sample2", padded(features_), feature_stride());
+  enter.shape = sample_shape(enter.shape, "enter", padded(network.enter().inputs), padded(network.enter().outputs));
   weight1.shape = sample_shape(weight1.shape, "weight1", feature_stride(), RPF_WEIGHT_FEATURES);
   std::vector<float> last = network.weight2().weights;
   last.push_back(network.weight2().bias.front());
@@ -111,8 +112,9 @@ void NetworkProgram::compile(const Blocking& blocking, const Check& check) {
   text += head_text(pass.own, pass.outputs, blocking);
   const std::string definitions = fmt::format(
       "-DRPF_HEAD_INPUTS={} -DRPF_PASS_VALUES={} -DRPF_SAMPLE_FEATURES={} -DRPF_HIDDEN_STRIDE={} "
-      "-DRPF_FEATURE_STRIDE={}",
-      pass.own, pass.outputs, features_, padded(features_), feature_stride());
+      "-DRPF_FEATURE_STRIDE={} -DRPF_PIXEL_STRIDE={} -DRPF_ENTER_STRIDE={}",
+      pass.own, pass.outputs, features_, padded(features_), feature_stride(), layers_[2].shape.own_stride,
+      layers_[2].shape.out_stride);
   session_.rehearse("network.cl", definitions, text, check);
   program_ = session_.compile("network.cl", definitions, text);
   for_all([&](DeviceLayer& layer) {

@@ -37,7 +37,9 @@ std::vector<EstimateStage> OpenClBackend::trace_estimate(const Window& region) {
 
 std::uint64_t OpenClBackend::estimate_bytes(const EstimatePlan& plan, const Window& window,
                                             std::uint64_t samples) const {
-  return EstimateSteps(plan, window, static_cast<double>(samples), 0, window.height, false).bytes();
+  const auto count = static_cast<double>(samples);
+  return EstimateSteps(plan, window, count, 0, window.height, false).bytes() +
+         static_cast<std::uint64_t>(EstimateSteps::most_kept(plan, count));
 }
 
 }  // namespace rpf

@@ -148,23 +148,25 @@ void SampleStage::launch_on_samples(cl::Kernel& kernel, const Rows& rows, const 
   session_.enqueue(kernel, items_, 1);
 }
 
-void SampleStage::see(const kernel::rpf_area& area, const DeviceGrid& pixel, const DeviceGrid& guides,
-                      const DeviceGrid& albedo, const Progress& progress) {
+void SampleStage::see(const kernel::rpf_area& area, const SeenGrids& out, const Progress& progress) {
+  const DeviceLayer& enter = program_.layer(2);
   for_launches(area, true, progress, [&](const Rows& rows) {
     const cl::Buffer trace = trace_of(rows, traced_floats());
-    launch_on_samples(see_, rows, guide_columns_, pixel.buffer, guides.buffer, albedo.buffer, trace, rows.launch,
-                      pixel.rows, guides.rows, albedo.rows, pixel.stored);
+    launch_on_samples(see_, rows, guide_columns_, enter.weights, enter.bias, out.enter.buffer, out.guides.buffer,
+                      out.albedo.buffer, out.kept.buffer, out.pixel.buffer, trace, rows.launch, out.enter.rows,
+                      out.guides.rows, out.albedo.rows, out.kept.rows, out.pixel.rows);
     if (trace_ != nullptr) keep_seen(rows, trace);
   });
 }
 
-void SampleStage::sum(const kernel::rpf_area& area, const DeviceGrid& heads, const DeviceGrid& sums,
-                      const Progress& progress) {
+void SampleStage::sum(const kernel::rpf_area& area, const DeviceGrid& heads, const DeviceGrid& kept,
+                      const DeviceGrid& sums, const Progress& progress) {
   const DeviceLayer& weight1 = program_.layer(job_.plan.network->layers.size() - 2);
   for_launches(area, false, progress, [&](const Rows& rows) {
     const cl::Buffer trace = trace_of(rows, 1);
     launch_on_samples(sum_, rows, heads.buffer, weight1.weights, weight1.bias, program_.last_weights(), rows.weights,
-                      rows.others, sums.buffer, trace, rows.launch, heads.rows, sums.rows, heads.stored);
+                      rows.others, kept.buffer, sums.buffer, trace, rows.launch, heads.rows, kept.rows, sums.rows,
+                      heads.stored);
     if (trace_ == nullptr) return;
     const std::vector<float> weights = session_.read<float>(trace, 0, rows.launch.samples);
     trace_->weights.insert(trace_->weights.end(), weights.begin(), weights.end());

@@ -13,7 +13,7 @@ namespace rpf {
 /// Rows of a grid on the device.
 struct DeviceGrid {
   cl::Buffer buffer;
-  kernel::rpf_grid rows;
+  kernel::rpf_grid rows{};
   int stored = 0;  ///< floats a cell, or planes
 };
 
@@ -38,11 +38,16 @@ class SampleStage {
   SampleStage(Session& session, const NetworkProgram& program, const EstimateJob& job, std::size_t items,
               SampleTrace* trace);
 
-  /// Values, guides and albedo of the pixels of rows first .. end - 1 of the window.
-  void see(const kernel::rpf_area& rows, const DeviceGrid& pixel, const DeviceGrid& guides, const DeviceGrid& albedo,
-           const Progress& progress);
+  /// What see() makes of the pixels of some rows.
+  struct SeenGrids {
+    const DeviceGrid &enter, &guides, &albedo;
+    const DeviceGrid& kept;   ///< what sum() will need of their samples
+    const DeviceGrid& pixel;  ///< what the first layer reads; both without rows where nobody wants them
+  };
+  void see(const kernel::rpf_area& rows, const SeenGrids& out, const Progress& progress);
   /// Sums of their weighted samples, from what the head says before the passes.
-  void sum(const kernel::rpf_area& rows, const DeviceGrid& heads, const DeviceGrid& sums, const Progress& progress);
+  void sum(const kernel::rpf_area& rows, const DeviceGrid& heads, const DeviceGrid& kept, const DeviceGrid& sums,
+           const Progress& progress);
 
  private:
   /// Rows, and what there is of the frame for them.

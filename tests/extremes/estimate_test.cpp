@@ -27,9 +27,9 @@ SampleBuffer any_estimated_frame() {
 Network any_network() {
   NetworkOptions options;
   options.seed = static_cast<std::uint32_t>(*rc::gen::inRange(0, 1 << 30));
-  options.channels = *rc::gen::element(std::vector<int>{3}, std::vector<int>{5, 4}, std::vector<int>{4, 5, 9});
-  options.sample_features = *rc::gen::element(1, 5);
-  options.embedding = *rc::gen::element(1, 3);
+  options.shape.channels = *rc::gen::element(std::vector<int>{3}, std::vector<int>{5, 4}, std::vector<int>{4, 5, 9});
+  options.shape.sample_features = *rc::gen::element(1, 5);
+  options.shape.embedding = *rc::gen::element(1, 3);
   options.gain = *rc::gen::element(1.0F, 1.0F, 30.0F, 1e3F, 1e5F);
   return random_network(options);
 }

@@ -8,19 +8,20 @@ FOLDER = Path(sys.argv[1])
 LARGEST, TINY, INFINITE, NAN = 0x7BFF, 0x0001, 0x7C00, 0x7E01  # binary16
 
 
-def value_count(features, channels, embedding):
+def value_count(features, channels, embedding, dilations, albedo_dilations):
     """Weights and biases of docs/network.md, "Layers"."""
     pairs = [(30, features), (features, features), (2 * features + 18, channels[0]), (9 * channels[0], channels[0])]
     for above, own in zip(channels, channels[1:]):
         pairs += [(9 * above, own), (9 * own, own), (9 * (own + above), above), (9 * above, above)]
-    pairs += [(channels[0], 9 + 6 * (embedding + 11)), (features + 8, 16), (16, 1)]
+    pairs += [(channels[0], 9 + (len(dilations) + len(albedo_dilations)) * (embedding + 11)), (features + 8, 16), (16, 1)]
     return sum((inputs + 1) * outputs for inputs, outputs in pairs)
 
 
-def network(value, features=1, channels=(1,), embedding=1, **header):
+def network(value, features=1, channels=(1,), embedding=1, dilations=(2, 1), albedo_dilations=(1,)):
     """`value(i)`: number i as binary16 bits."""
-    text = {"format": "rpf-network", "version": 1, "name": "fuzz", "sample_features": features, "channels": list(channels), "embedding": embedding, **header}
-    count = value_count(features, channels, embedding)
+    text = {"format": "rpf-network", "version": 2, "name": "fuzz", "sample_features": features, "channels": channels, "embedding": embedding,
+            "dilations": dilations, "albedo_dilations": albedo_dilations}
+    count = value_count(features, channels, embedding, dilations, albedo_dilations)
     return json.dumps(text).encode() + b"\n" + struct.pack(f"<{count}H", *map(value, range(count)))
 
 
@@ -31,7 +32,7 @@ def ordinary(i):
 def main():
     FOLDER.mkdir(parents=True, exist_ok=True)
     good = network(ordinary)
-    files = {"good": good, "two_levels": network(ordinary, 2, (2, 3), 2), "three_levels": network(ordinary, 1, (1, 1, 1), 1),
+    files = {"good": good, "two_levels": network(ordinary, 2, (2, 3), 2), "three_levels": network(ordinary, 1, (1, 1, 1), 1, (8, 3, 1), (5, 1, 2)),
              "zeros": network(lambda i: 0), "tiny": network(lambda i: TINY + i % 2 * 0x8000), "largest": network(lambda i: LARGEST),
              "largest_signs": network(lambda i: LARGEST + i * 7 % 3 % 2 * 0x8000, 2, (2, 2), 3), "lowest": network(lambda i: LARGEST | 0x8000),
              "one_infinite": network(lambda i: INFINITE if i == 40 else ordinary(i)), "one_nan": network(lambda i: NAN if i == 90 else ordinary(i)),
@@ -42,7 +43,8 @@ def main():
                          ("name_number", {"name": 7}), ("features_0", {"sample_features": 0}), ("features_huge", {"sample_features": 2**63}),
                          ("features_float", {"sample_features": 1.0}), ("channels_none", {"channels": []}), ("channels_text", {"channels": "1"}),
                          ("channels_negative", {"channels": [-1]}), ("channels_many", {"channels": [1] * 9}), ("channels_large", {"channels": [512] * 8}),
-                         ("embedding_65", {"embedding": 65}), ("embedding_null", {"embedding": None}), ("version_2", {"version": 2}), ("format", {"format": ["rpf-network"]})):
+                         ("embedding_65", {"embedding": 65}), ("embedding_null", {"embedding": None}), ("version_3", {"version": 3}), ("version_1", {"version": 1}), ("dilations_none", {"dilations": []}),
+                         ("dilations_9", {"dilations": [9, 1]}), ("dilations_text", {"albedo_dilations": "1"}), ("dilations_many", {"dilations": [1] * 9}), ("format", {"format": ["rpf-network"]})):
         text = {**json.loads(good[:good.index(b"\n")]), **header}
         files[name] = json.dumps(text).encode() + good[good.index(b"\n"):]
     for name, content in files.items():

@@ -24,10 +24,10 @@ using Json = nlohmann::json;
 int write_random(const std::vector<std::string>& arguments) {
   rpf::test::NetworkOptions options;
   options.seed = static_cast<std::uint32_t>(std::stoul(arguments.at(2)));
-  options.sample_features = std::stoi(arguments.at(3));
-  options.embedding = std::stoi(arguments.at(4));
-  options.channels.clear();
-  for (std::size_t i = 5; i < arguments.size(); ++i) options.channels.push_back(std::stoi(arguments[i]));
+  options.shape.sample_features = std::stoi(arguments.at(3));
+  options.shape.embedding = std::stoi(arguments.at(4));
+  options.shape.channels.clear();
+  for (std::size_t i = 5; i < arguments.size(); ++i) options.shape.channels.push_back(std::stoi(arguments[i]));
   rpf::Network network = rpf::test::random_network(options);
   network.name = arguments.at(1);
   rpf::test::write_network(network, arguments.at(0));

@@ -111,6 +111,8 @@ MUTANTS = [
     Mutant("cl_coarse", LAYERS, "return (c + kx + 1) / 2;", "return (c + kx) / 2;", LEARNED + "up1a", "the coarse cell beside"),
     Mutant("cl_learned_weight", SUMS, "float16 logit = output[RPF_WEIGHT_FEATURES];", "float16 logit = 0.0f;", LEARNED + "weights", "no bias"),
     Mutant("cl_sums", SUMS, "rpf_added(sums.weight, weight)", "weight", LEARNED + "sums", "the last sample for all"),
+    Mutant("cl_kept_rows", SAMPLES, "row_at(grid, part->y) + (size_t)(sample - first_of_pixel(part, 0)) * RPF_KEPT", "(size_t)(sample - first_of_pixel(part, 0)) * RPF_KEPT",
+           LEARNED + "weights", "what is kept of the rows' samples lies one over the other"),
     Mutant("cl_taps", PASSES, "total += w;", "total += t == 4 ? 0.0f : w;", LEARNED + "pass0", "a tap is not counted"),
     Mutant("cl_tap_rows", PASSES, "if (row < 0 || row >= p->area.height) continue;", "if (row < 0) continue;", LEARNED + "pass0",
            "rows below the frame count"),

@@ -22,18 +22,13 @@ void fill(NetworkLayer& layer, float gain, Dice& dice) {
 }  // namespace
 
 Network random_network(const NetworkOptions& o) {
-  Network n;
-  n.name = "random";
-  n.sample_features = o.sample_features;
-  n.channels = o.channels;
-  n.embedding = o.embedding;
-  n.layers = layers_of(o.sample_features, o.channels, o.embedding);
+  Network n{o.shape, "random", "", layers_of(o.shape)};
   Dice dice(o.seed);
   for (NetworkLayer& layer : n.layers)
     fill(layer, o.gain * (layer.name == "head" ? 0.3F : layer.name == "weight2" ? 0.1F : 1), dice);
   NetworkLayer& head = n.layers[n.layers.size() - 3];
-  const auto embedding = static_cast<kernel::uint>(o.embedding);
-  for (kernel::uint pass = 0; pass < RPF_NETWORK_PASSES; ++pass)
+  const auto embedding = static_cast<kernel::uint>(o.shape.embedding), passes = static_cast<kernel::uint>(n.passes());
+  for (kernel::uint pass = 0; pass < passes; ++pass)
     for (kernel::uint k = 0; k < RPF_GUIDES; ++k)
       head.bias[kernel::rpf_head_pass(pass, embedding) + embedding + 1 + k] = 0.5F;
   return parse_network(network_bytes(n), "random");  // weights that a file can hold

@@ -3,16 +3,13 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "learned/network.h"
 
 namespace rpf::test {
 
 struct NetworkOptions {
-  int sample_features = 8;
-  std::vector<int> channels = {8, 12, 16};
-  int embedding = 4;
+  NetworkShape shape = {8, {8, 12, 16}, 4};
   std::uint32_t seed = 1;
   float gain = 1;  ///< weights times this: 1 keeps the size of what passes through
 };

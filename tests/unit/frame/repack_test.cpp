@@ -58,6 +58,8 @@ TEST(Repack, WaitsForWhatIsStillToBeRead) {
   EXPECT_EQ(order.records(2), std::make_pair(std::size_t{0}, piece_records));
   RepackOrder shorter(3 * piece_records, 8, 4, true);
   EXPECT_EQ(shorter.records(0), std::make_pair(std::size_t{0}, piece_records));
+  EXPECT_FALSE(shorter.is_free(0));  // what is read for them lies there itself
+  EXPECT_FALSE(shorter.is_free(1));
   std::atomic<bool> written{false};
   std::thread second([&] {
     EXPECT_TRUE(shorter.may_write(1));  // over the last half of the first piece
@@ -68,6 +70,7 @@ TEST(Repack, WaitsForWhatIsStillToBeRead) {
   EXPECT_TRUE(shorter.may_write(0));
   second.join();
   EXPECT_TRUE(written);
+  EXPECT_TRUE(shorter.is_free(1));
 }
 
 }  // namespace

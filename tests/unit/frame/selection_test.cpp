@@ -50,11 +50,11 @@ TEST(Selection, LeavesOutSecondHitsOnRequest) {
   EXPECT_THROW(select_channels(both, settings), Error);
 }
 
-TEST(NeededSlots, AreWhatIsModeledAndWhatMeasuresTheScene) {
+TEST(SelectedSlots, AreWhatIsModeledAndWhatMeasuresTheScene) {
   Settings settings;
   const Slots always = {"R", "G", "B", "film.X", "film.Y"};
   const auto needed_beside = [&] {
-    Slots slots = needed_slots(layout, settings);
+    Slots slots = selected_slots(layout, settings);
     EXPECT_TRUE(std::equal(always.begin(), always.end(), slots.begin()));
     slots.erase(slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(always.size()));
     return slots;

@@ -53,10 +53,12 @@ TEST(Half, IsTheValueThatOpenExrHas) {
 }
 
 TEST(NetworkFile, ReadsWhatWasWritten) {
-  const Network network = test::random_network({8, {8, 12, 16}, 4, 3, 1});
+  const Network network = test::random_network({{8, {8, 12, 16}, 4, {8, 3, 1}, {5}}, 3, 1});
   const Network read = parse_network(network_bytes(network), "x");
   EXPECT_EQ(read.name, network.name);
   EXPECT_EQ(read.channels, network.channels);
+  EXPECT_EQ(read.dilations, network.dilations);
+  EXPECT_EQ(read.albedo_dilations, network.albedo_dilations);
   EXPECT_EQ(read.hash, network.hash);
   ASSERT_EQ(read.layers.size(), network.layers.size());
   for (std::size_t i = 0; i < read.layers.size(); ++i) {
@@ -66,7 +68,7 @@ TEST(NetworkFile, ReadsWhatWasWritten) {
 }
 
 TEST(NetworkFile, HasALayerForEveryName) {
-  const Network n = test::random_network({8, {8, 12, 16}, 4, 3, 1});
+  const Network n = test::random_network({{8, {8, 12, 16}, 4, {8, 3, 1}, {5}}, 3, 1});
   EXPECT_EQ(n.sample1().name, "sample1");
   EXPECT_EQ(n.enter().name, "enter");
   EXPECT_EQ(n.down(0, false).name, "down0");
@@ -77,6 +79,7 @@ TEST(NetworkFile, HasALayerForEveryName) {
   EXPECT_EQ(n.head().name, "head");
   EXPECT_EQ(n.weight2().name, "weight2");
   EXPECT_EQ(n.up(1, false).inputs, 12 + 16);
+  EXPECT_EQ(n.head().outputs, 8 + 1 + 4 * (4 + 1 + 10));
 }
 
 TEST(NetworkFile, IsHashedAsAWhole) {
@@ -87,7 +90,7 @@ TEST(NetworkFile, IsHashedAsAWhole) {
 }
 
 TEST(NetworkFile, CutAnywhereIsRefused) {
-  const std::string bytes = network_bytes(test::random_network({2, {2}, 1, 1, 1}));
+  const std::string bytes = network_bytes(test::random_network({{2, {2}, 1}, 1, 1}));
   for (std::size_t length = 0; length < bytes.size(); ++length) refusal(bytes.substr(0, length));
   EXPECT_THAT(refusal(bytes + "x"), HasSubstr("bytes of weights"));
 }
@@ -109,7 +112,17 @@ TEST(NetworkFile, AShapeThatCannotBeIsRefused) {
   EXPECT_THAT(refusal(header_with("\"channels\":[8,12,16]", "\"channels\":[8,[12],16]")), HasSubstr("channels"));
   EXPECT_THAT(refusal(header_with("\"channels\":[8,12,16]", "\"channels\":[1,1,1,1,1,1,1,1,1]")),
               HasSubstr("channels"));
+  EXPECT_THAT(refusal(header_with("\"dilations\":[8,4,2,1]", "\"dilations\":[9,4,2,1]")), HasSubstr("from 1 to 8"));
+  EXPECT_THAT(refusal(header_with("\"albedo_dilations\":[2,1]", "\"albedo_dilations\":[]")),
+              HasSubstr("albedo_dilations"));
+  EXPECT_THAT(refusal(header_with("\"dilations\":[8,4,2,1]", "\"dilations\":[8,4,2]")), HasSubstr("bytes of weights"));
   EXPECT_THAT(refusal(header_with("\"name\":\"random\"", "\"name\":7")), HasSubstr("name"));
+}
+
+TEST(NetworkFile, OfVersionOneHasThePassesOfThen) {
+  const Network read = parse_network(header_with("\"version\":2", "\"version\":1"), "x");
+  EXPECT_EQ(read.dilations, (std::vector<int>{8, 4, 2, 1}));
+  EXPECT_EQ(read.albedo_dilations, (std::vector<int>{2, 1}));
 }
 
 TEST(NetworkFile, ANameThatIsNoLineIsRefused) {
@@ -123,7 +136,7 @@ TEST(NetworkFile, ANameThatIsNoLineIsRefused) {
 
 TEST(NetworkFile, WhatIsNoneIsRefused) {
   EXPECT_THAT(refusal(header_with("rpf-network", "rpf-netware")), HasSubstr("not a network file"));
-  EXPECT_THAT(refusal(header_with("\"version\":1", "\"version\":2")), HasSubstr("version 1 only"));
+  EXPECT_THAT(refusal(header_with("\"version\":2", "\"version\":3")), HasSubstr("version 1 to 2"));
   refusal("");
   refusal("\n");
   refusal("[]\n");

@@ -17,9 +17,9 @@
 namespace rpf {
 namespace {
 
-EstimatePlan plan_of(const std::vector<int>& channels, const Window& frame) {
+EstimatePlan plan_of(const NetworkShape& shape, const Window& frame) {
   EstimatePlan plan;
-  plan.network = random_network(1, 8, channels, 4);
+  plan.network = random_network(1, shape);
   plan.width = frame.width;
   plan.height = frame.height;
   plan.has_albedo = true;
@@ -29,7 +29,7 @@ EstimatePlan plan_of(const std::vector<int>& channels, const Window& frame) {
 /// Goes through the steps with grids that only remember which row stands where.
 class RowsOnly {
  public:
-  explicit RowsOnly(EstimateSteps& steps) : steps_(steps) {}
+  RowsOnly(EstimateSteps& steps, const NetworkShape& network) : steps_(steps), network_(network) {}
 
   void run() {
     steps_.pipeline.run([&](int number, int first, int end) {
@@ -51,7 +51,7 @@ class RowsOnly {
     if (step.kind == EstimateStep::Kind::halve) {
       for (int y = 2 * row; y < std::min(2 * row + 2, height); ++y) must_be_there(from, y);
     } else if (step.kind == EstimateStep::Kind::pass || step.kind == EstimateStep::Kind::weigh) {
-      const int dilation = kernel::rpf_dilation(static_cast<kernel::uint>(step.number));
+      const int dilation = network_.dilation(step.number);
       const bool weighs = step.kind == EstimateStep::Kind::weigh, weighs_with = from != step.in.front();
       for (int j = weighs ? 0 : -2; j <= (weighs_with ? 0 : 2); ++j)
         if (row + j * dilation >= 0 && row + j * dilation < height) must_be_there(from, row + j * dilation);
@@ -70,18 +70,27 @@ class RowsOnly {
   }
 
   EstimateSteps& steps_;
+  const NetworkShape& network_;
   std::map<int, std::map<int, int>> rows_;  ///< [grid][place] -> row
 };
 
 TEST(EstimateSteps, FindEveryRowThatTheyRead) {
-  const std::vector<int> networks[] = {{8}, {8, 8}, {8, 8, 8, 8}, {8, 8, 8, 8, 8, 8, 8}};
-  for (const std::vector<int>& channels : networks)
+  const NetworkShape networks[] = {{8, {8}, 4},
+                                   {8, {8, 8}, 4},
+                                   {8, {8, 8, 8, 8}, 4},
+                                   {8, {8, 8, 8, 8, 8, 8, 8}, 4},
+                                   {8, {8, 8}, 4, {1}, {8, 8, 8}},
+                                   {8, {8, 8, 8}, 4, {1, 8, 3, 5}, {1}}};
+  for (const NetworkShape& shape : networks)
     for (const int height : {1, 2, 7, 64, 65, 301, 1080}) {
       const Window window{0, 0, 20, height};
       for (const int first : {0, height / 2, height - 1}) {
-        EstimateSteps steps(plan_of(channels, window), window, 20.0 * height, first, height, false);
-        RowsOnly(steps).run();
-        if (testing::Test::HasFailure()) FAIL() << channels.size() << " levels, rows " << first << " to " << height;
+        for (const int row_samples : {0, 1}) {
+          EstimateSteps steps(plan_of(shape, window), window, 20.0 * height, first, height, false, row_samples);
+          ASSERT_EQ(steps.kept >= 0, row_samples > 0);
+          RowsOnly(steps, shape).run();
+          if (testing::Test::HasFailure()) FAIL() << shape.levels() << " levels, rows " << first << " to " << height;
+        }
       }
     }
 }
@@ -89,16 +98,26 @@ TEST(EstimateSteps, FindEveryRowThatTheyRead) {
 TEST(EstimateSteps, KeepNoMoreOfATallFrameThanOfAnother) {
   const auto bytes = [](int height) {
     const Window window{0, 0, 640, height};
-    return EstimateSteps(plan_of({8, 16, 24}, window), window, 640.0 * height, 0, height, false).bytes();
+    return EstimateSteps(plan_of({8, {8, 16, 24}, 4}, window), window, 640.0 * height, 0, height, false).bytes();
   };
   EXPECT_EQ(bytes(1080), bytes(100000));
   EXPECT_LT(bytes(1080), bytes(360) * 2);
 }
 
+TEST(EstimateSteps, KeepNothingOfSamplesWhereARowHasMostOfThemOrTheyAreTooMany) {
+  const Window window{0, 0, 20, 300};
+  const auto keeps = [&](double samples, int row_samples) {
+    return EstimateSteps(plan_of({8, {8, 8}, 4}, window), window, samples, 0, 300, false, row_samples).kept >= 0;
+  };
+  EXPECT_TRUE(keeps(300 * 80, 80));
+  EXPECT_FALSE(keeps(300 * 80, 20000));
+  EXPECT_FALSE(keeps(3e8, 1000000));
+}
+
 TEST(EstimateSteps, DoNotMakeWhatACropDoesNotNeed) {
   const Window window{0, 0, 20, 1000};
-  EstimateSteps whole(plan_of({8, 8}, window), window, 20000, 0, 1000, false);
-  EstimateSteps part(plan_of({8, 8}, window), window, 20000, 500, 501, false);
+  EstimateSteps whole(plan_of({8, {8, 8}, 4}, window), window, 20000, 0, 1000, false);
+  EstimateSteps part(plan_of({8, {8, 8}, 4}, window), window, 20000, 500, 501, false);
   EXPECT_LT(part.work(), 0.2 * whole.work());
 }
 
@@ -106,7 +125,7 @@ TEST(EstimateSteps, DoNotMakeWhatACropDoesNotNeed) {
 class DeviceEstimate {
  public:
   DeviceEstimate(const OpenClOptions& options, const std::vector<int>& channels)
-      : observed_(observe(test::every_input({37, 29, 0, 1}), settings(), random_network(3, 12, channels, 5))),
+      : observed_(observe(test::every_input({37, 29, 0, 1}), settings(), random_network(3, {12, channels, 5}))),
         device_(options) {
     device_.load_estimate(observed_.prepared.frame, observed_.plan);
   }

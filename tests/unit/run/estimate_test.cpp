@@ -9,6 +9,7 @@
 #include "rpf/error.h"
 #include "rpf/filter.h"
 #include "rpf/presets.h"
+#include "rpf_network.h"
 #include "temporary_folder.h"
 #include "test_frames.h"
 #include "test_networks.h"
@@ -161,7 +162,7 @@ TEST_F(EveryMethodEstimate, OfAPixelAloneIsItsColorWhateverTheNetworkSays) {
   const SampleBuffer samples = every_input({1, 1, 1, 1});
   for (const std::uint32_t seed : {1U, 2U, 3U}) {
     Settings s = settings();
-    s.model = test::write_network(test::random_network({4, {4, 5, 9}, 2, seed, 1e5F}), folder.file("hostile.rpfnet"));
+    s.model = test::write_network(test::random_network({{4, {4, 5, 9}, 2}, seed, 1e5F}), folder.file("hostile.rpfnet"));
     const std::vector<float> pixels = estimate(samples, s);
     for (std::size_t c = 0; c < 3; ++c)
       EXPECT_NEAR(pixels[c], samples.record(0)[c], test::tolerance::estimated_constant) << "seed " << seed;
@@ -208,6 +209,47 @@ TEST_F(EveryMethodEstimate, SaysWhichNetworkItWasAndWhatItLookedAt) {
   EXPECT_THAT(result.report.random, testing::Contains("light.U"));
   EXPECT_THAT(result.report.features, testing::Contains("hit"));
   EXPECT_GT(result.report.passes.front().energy, 0.5);
+}
+
+/// Inputs first .. end - 1 without any weight.
+void forget(Network& network, int first, int end) {
+  NetworkLayer& sample1 = network.layers.front();
+  const auto row = [&](int input) {
+    return sample1.weights.begin() + static_cast<std::ptrdiff_t>(input) * sample1.outputs;
+  };
+  std::fill(row(first), row(end), 0.0F);
+}
+
+TEST_F(EveryMethodEstimate, ReadsNoChannelThatItsNetworkDoesNotLookAt) {
+  TemporaryFolder folder;
+  Network network = test::random_network();
+  forget(network, RPF_INPUT_DISTANCE2, RPF_INPUT_HIT2);
+  forget(network, RPF_INPUT_FILM, RPF_INPUTS);
+  Settings s = settings();
+  s.model = test::write_network(network, folder.file("some.rpfnet"));
+  const SampleBuffer samples = every_input({19, 13, 3, 1});
+  const std::vector<std::string> needed = needed_slots(samples.layout, s);
+  EXPECT_THAT(needed, testing::Contains("feature.N2.X"));  // says whether there is a second hit
+  for (const char* slot : {"feature.P2.X", "random.light.U", "random.bsdf.V"})
+    EXPECT_THAT(needed, testing::Not(testing::Contains(slot)));
+  const Result all = filter(samples, s), some = filter(test::with_slots(samples, needed), s);
+  EXPECT_EQ(some.image.pixels, all.image.pixels);
+  EXPECT_EQ(some.report.features, all.report.features);
+  EXPECT_EQ(some.report.random, all.report.random);
+  EXPECT_THAT(all.report.features, testing::Not(testing::Contains("P2.X")));
+}
+
+TEST_F(EveryMethodEstimate, ReadsNoSecondHitForANetworkThatLooksAtNone) {
+  TemporaryFolder folder;
+  Network network = test::random_network();
+  forget(network, RPF_INPUT_NORMAL2, RPF_INPUT_LENS);
+  Settings s = settings();
+  s.model = test::write_network(network, folder.file("some.rpfnet"));
+  const SampleLayout layout = every_input({2, 2, 1, 1}).layout;
+  EXPECT_THAT(needed_slots(layout, s), testing::Not(testing::Contains("feature.N2.X")));
+  EXPECT_THAT(needed_slots(layout, s), testing::Contains("random.light.U"));
+  s.filter_features = true;
+  EXPECT_THAT(needed_slots(layout, s), testing::Contains("feature.N2.X"));
 }
 
 TEST_F(EveryMethodEstimate, TellsItsProgressToTheEndAndStopsWhereItIsTold) {
